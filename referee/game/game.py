@@ -1,0 +1,141 @@
+"""The state of a game between two actions: an immutable value that JSON carries without loss."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from enum import StrEnum
+from typing import Any
+
+from physics.state import TableState
+from referee.errors import InvalidGame
+from referee.game.action import Decision
+from referee.game.outcome import Outcome
+
+
+class Phase(StrEnum):
+    """What the game awaits."""
+
+    BREAK = "break"
+    PLAY = "play"
+    DECISION = "decision"
+    RERACK = "rerack"
+    """A new rack, from whoever drives the game: ``EightBall.rerack``. No player acts in this phase."""
+    OVER = "over"
+
+
+class Area(StrEnum):
+    """Where the player in turn may put a cue ball in hand."""
+
+    KITCHEN = "kitchen"
+    ANYWHERE = "anywhere"
+
+
+class Group(StrEnum):
+    """Solids are 1-7, stripes 9-15."""
+
+    SOLIDS = "solids"
+    STRIPES = "stripes"
+
+
+@dataclass(frozen=True, slots=True)
+class Game:
+    """Everything that the next ruling depends on.
+
+    Attributes:
+        state: the balls on the table. A pocketed cue ball is absent until it is placed; so is an 8 pocketed
+            on the break while the choice whether to spot it is open.
+        phase: what is awaited.
+        turn: seat (0 or 1) of the player who acts; in phase ``rerack`` of the player who will break.
+        breaker: seat that broke first in this game; replays of the rack fall to it again.
+        groups: the group of seat 0 and of seat 1; None on an open table.
+        cue_ball_in_hand: where the player in turn may put the cue ball; None: it lies where it lies.
+        decisions: the choices now open, in phase ``decision``.
+        choice: id of the rule that grants these choices.
+        stroke: index of the next stroke in this game, re-racks included; a decision is no stroke.
+        rack: index of the present rack: 0, then one more after every re-rack.
+        visit_strokes: strokes the player in turn has played since coming to the table.
+        dry_visits: consecutive finished visits without a ball pocketed (R49).
+        replays: racks replayed because of a stalemate (R49).
+        outcome: the result, in phase ``over``.
+    """
+
+    state: TableState
+    phase: Phase
+    turn: int
+    breaker: int
+    groups: tuple[Group, Group] | None = None
+    cue_ball_in_hand: Area | None = None
+    decisions: tuple[Decision, ...] = ()
+    choice: str | None = None
+    stroke: int = 0
+    rack: int = 0
+    visit_strokes: int = 0
+    dry_visits: int = 0
+    replays: int = 0
+    outcome: Outcome | None = None
+
+    @property
+    def strokes_played(self) -> int:
+        """Strokes played in this game, miscues and replayed racks included."""
+        return self.stroke
+
+    @property
+    def opponent(self) -> int:
+        """The seat that is not in turn."""
+        return 1 - self.turn
+
+    @property
+    def is_over(self) -> bool:
+        """The game has an outcome."""
+        return self.phase is Phase.OVER
+
+    def group_of(self, seat: int) -> Group | None:
+        """The seat's group, None on an open table."""
+        return None if self.groups is None else self.groups[seat]
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON form; ``Game.from_dict(json.loads(json.dumps(game.to_dict()))) == game``."""
+        data = {name: getattr(self, name) for name in _PLAIN}
+        return data | {
+            "state": self.state.to_dict(),
+            "phase": self.phase.value,
+            "groups": None if self.groups is None else [group.value for group in self.groups],
+            "cue_ball_in_hand": None if self.cue_ball_in_hand is None else self.cue_ball_in_hand.value,
+            "decisions": [decision.value for decision in self.decisions],
+            "outcome": None if self.outcome is None else self.outcome.to_dict(),
+        }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> "Game":
+        """Read what ``to_dict`` wrote.
+
+        Raises:
+            InvalidGame: a key is missing or unknown, or a value is not one of its kind.
+            physics.InvalidState: the balls do not lie on a table.
+        """
+        names = {field.name for field in fields(cls)}
+        if set(data) != names:
+            raise InvalidGame("game", sorted(set(data) ^ names), f"exactly the keys {sorted(names)}")
+        try:
+            return cls(**_values(data))
+        except (TypeError, ValueError) as error:
+            if type(error) in (TypeError, ValueError):
+                raise InvalidGame("game", dict(data), str(error)) from None
+            raise
+
+
+_PLAIN = ("turn", "breaker", "choice", "stroke", "rack", "visit_strokes", "dry_visits", "replays")
+
+
+def _values(data: Mapping[str, Any]) -> dict[str, Any]:
+    groups, area, outcome = data["groups"], data["cue_ball_in_hand"], data["outcome"]
+    for name in ("turn", "breaker"):
+        if data[name] not in (0, 1):
+            raise InvalidGame(name, data[name], "seat 0 or 1")
+    return {name: data[name] for name in _PLAIN} | {
+        "state": TableState.from_dict(data["state"]),
+        "phase": Phase(data["phase"]),
+        "groups": None if groups is None else tuple(Group(group) for group in groups),
+        "cue_ball_in_hand": None if area is None else Area(area),
+        "decisions": tuple(Decision(decision) for decision in data["decisions"]),
+        "outcome": None if outcome is None else Outcome.from_dict(outcome),
+    }
