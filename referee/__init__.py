@@ -4,8 +4,8 @@ from referee.errors import InvalidAction, InvalidGame, RefereeError
 from referee.game import (
     SAFETY,
     Action,
-    Area,
     Call,
+    CueBallArea,
     Decision,
     EndReason,
     Evidence,
@@ -21,8 +21,8 @@ from referee.game import (
 __all__ = [
     "SAFETY",
     "Action",
-    "Area",
     "Call",
+    "CueBallArea",
     "Decision",
     "EndReason",
     "Evidence",

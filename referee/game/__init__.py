@@ -1,7 +1,7 @@
 """The values of a game: what a player does, how the game stands, what the referee answers."""
 
 from referee.game.action import SAFETY, Action, Call, Decision
-from referee.game.game import Area, Game, Group, Phase
+from referee.game.game import CueBallArea, Game, Group, Phase
 from referee.game.legal import EIGHT, Legal, callable_balls, legal, members, remaining
 from referee.game.outcome import EndReason, Outcome
 from referee.game.ruling import Evidence, Refusal, Ruling
@@ -10,8 +10,8 @@ __all__ = [
     "EIGHT",
     "SAFETY",
     "Action",
-    "Area",
     "Call",
+    "CueBallArea",
     "Decision",
     "EndReason",
     "Evidence",

@@ -22,7 +22,7 @@ class Phase(StrEnum):
     OVER = "over"
 
 
-class Area(StrEnum):
+class CueBallArea(StrEnum):
     """Where the player in turn may put a cue ball in hand."""
 
     KITCHEN = "kitchen"
@@ -63,7 +63,7 @@ class Game:
     turn: int
     breaker: int
     groups: tuple[Group, Group] | None = None
-    cue_ball_in_hand: Area | None = None
+    cue_ball_in_hand: CueBallArea | None = None
     decisions: tuple[Decision, ...] = ()
     choice: str | None = None
     stroke: int = 0
@@ -135,7 +135,7 @@ def _values(data: Mapping[str, Any]) -> dict[str, Any]:
         "state": TableState.from_dict(data["state"]),
         "phase": Phase(data["phase"]),
         "groups": None if groups is None else tuple(Group(group) for group in groups),
-        "cue_ball_in_hand": None if area is None else Area(area),
+        "cue_ball_in_hand": None if area is None else CueBallArea(area),
         "decisions": tuple(Decision(decision) for decision in data["decisions"]),
         "outcome": None if outcome is None else Outcome.from_dict(outcome),
     }

@@ -5,7 +5,7 @@ from typing import Any
 
 from physics.constants import N_POCKETS
 from referee.game.action import Decision
-from referee.game.game import Area, Game, Group, Phase
+from referee.game.game import CueBallArea, Game, Group, Phase
 
 EIGHT = 8
 _MEMBERS = {Group.SOLIDS: tuple(range(1, 8)), Group.STRIPES: tuple(range(9, 16))}
@@ -33,7 +33,7 @@ class Legal:
     callable: tuple[int, ...] = ()
     pockets: tuple[int, ...] = ()
     safety: bool = False
-    cue_ball: Area | None = None
+    cue_ball: CueBallArea | None = None
     must_place: bool = False
     decisions: tuple[Decision, ...] = ()
 
