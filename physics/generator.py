@@ -87,8 +87,8 @@ class SeededStream:
 def normal_quantile(p: float) -> float:
     """The inverse of the standard normal distribution at p in (0, 1): AS 241, PPND16 (Wichura 1988).
 
-    Applied Statistics 37(3), 477-484. For every p that ``SeededStream.uniform`` gives, the result is within 1e-15
-    relative of the true value (worst seen: 6e-16).
+    Applied Statistics 37(3), 477-484. For every p that ``SeededStream.uniform`` gives, the result is within
+    1e-15 relative of the true value (worst seen: 6e-16).
     """
     q = p - 0.5
     if abs(q) <= 0.425:
@@ -105,8 +105,9 @@ def normal_quantile(p: float) -> float:
 def natural_logarithm(x: float) -> float:
     """ln x for a normal x > 0, within 1 ulp, by a fixed sequence of + - * / after ``frexp``.
 
-    The method of fdlibm's ``e_log.c`` (Sun Microsystems 1993): x = 2^k (1 + f), 1 + f in [sqrt(1/2), sqrt(2)),
-    s = f / (2 + f), ln(1 + f) = f - (f^2/2 - s (f^2/2 + R)) where R = z P(z), z = s^2, P of degree 6.
+    The method of fdlibm's ``e_log.c`` (Sun Microsystems 1993): x = 2^k (1 + f), 1 + f in [sqrt(1/2),
+    sqrt(2)), s = f / (2 + f), ln(1 + f) = f - (f^2/2 - s (f^2/2 + R)) where R = z P(z), z = s^2, P of degree
+    6.
     """
     mantissa, exponent = math.frexp(x)
     if mantissa < _SQRT_HALF:

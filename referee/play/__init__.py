@@ -1,0 +1,23 @@
+"""Playing: seeds and commitment, noise, the stroke (one loop body for everyone), clocks.
+
+``referee.play.local`` plays whole games without a server; it is imported by name, because it needs the wire.
+"""
+
+from referee.play.clock import Clocks, nanoseconds
+from referee.play.noise import NoiseModel
+from referee.play.seeds import GameSeeds, MatchSeed, commitment, seed_from_hex
+from referee.play.stroke import Refused, Stroke, play_stroke, start_game
+
+__all__ = [
+    "Clocks",
+    "GameSeeds",
+    "MatchSeed",
+    "NoiseModel",
+    "Refused",
+    "Stroke",
+    "commitment",
+    "nanoseconds",
+    "play_stroke",
+    "seed_from_hex",
+    "start_game",
+]

@@ -1,0 +1,86 @@
+"""What is on the wire, defined once: pydantic models of requests, answers and problems, and problem codes."""
+
+from referee.wire.agents import AgentList, AgentRequest, AgentToken, AgentView
+from referee.wire.answers import ShotsPage, StrokeAnswer
+from referee.wire.matches import GameAnswer, GameSummary, MatchList, MatchRequest, MatchView
+from referee.wire.outcomes import (
+    BallStateView,
+    EventView,
+    EvidenceView,
+    OutcomeView,
+    Pocketed,
+    RulingView,
+)
+from referee.wire.physics import (
+    BatchAnswer,
+    BatchRequest,
+    BatchRow,
+    MinElevationAnswer,
+    MinElevationRequest,
+    SimulateAnswer,
+    SimulateRequest,
+)
+from referee.wire.problems import PROBLEM_JSON, Fault, Problem, ProblemCode, shown
+from referee.wire.shots import (
+    CallRequest,
+    DecisionRequest,
+    ShotParameters,
+    ShotRequest,
+    SubmittedAction,
+)
+from referee.wire.strokes import StrokeDetail, StrokeView
+from referee.wire.terms import ClockTerms, ClockView, NoiseTerms, NoiseView
+from referee.wire.turns import TURN_MESSAGE, GameOver, MatchOver, Turn, TurnMessage
+from referee.wire.view import Allowed, Area, GameTerms, View
+
+__all__ = [
+    "PROBLEM_JSON",
+    "TURN_MESSAGE",
+    "AgentList",
+    "AgentRequest",
+    "AgentToken",
+    "AgentView",
+    "Allowed",
+    "Area",
+    "BallStateView",
+    "BatchAnswer",
+    "BatchRequest",
+    "BatchRow",
+    "CallRequest",
+    "ClockTerms",
+    "ClockView",
+    "DecisionRequest",
+    "EventView",
+    "EvidenceView",
+    "Fault",
+    "GameAnswer",
+    "GameOver",
+    "GameSummary",
+    "GameTerms",
+    "MatchList",
+    "MatchOver",
+    "MatchRequest",
+    "MatchView",
+    "MinElevationAnswer",
+    "MinElevationRequest",
+    "NoiseTerms",
+    "NoiseView",
+    "OutcomeView",
+    "Pocketed",
+    "Problem",
+    "ProblemCode",
+    "RulingView",
+    "ShotParameters",
+    "ShotRequest",
+    "ShotsPage",
+    "SimulateAnswer",
+    "SimulateRequest",
+    "StrokeAnswer",
+    "StrokeDetail",
+    "StrokeView",
+    "SubmittedAction",
+    "Turn",
+    "TurnMessage",
+    "View",
+    "shown",
+]

@@ -1,0 +1,45 @@
+"""Agents: registration and tokens."""
+
+from datetime import datetime
+from typing import Annotated, Literal
+
+from pydantic import ConfigDict, Field, StringConstraints
+
+from referee.wire.values import Identifier, Message, Request
+
+AgentName = Annotated[
+    str, StringConstraints(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.-]*$")
+]
+
+
+class AgentRequest(Request):
+    """``POST /v1/agents``: a new agent."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [{"name": "my-first-agent"}]})
+
+    name: AgentName
+
+
+class AgentView(Message):
+    """An agent as everybody sees it."""
+
+    id: Identifier
+    name: str
+    created_at: datetime
+
+
+class AgentToken(Message):
+    """A fresh token: shown once, stored only as a hash."""
+
+    agent: AgentView
+    token: Annotated[str, Field(description="Sent as `Authorization: Bearer <token>`.")]
+
+
+class AgentList(Message):
+    """Agents in order of registration."""
+
+    agents: tuple[AgentView, ...]
+    next_cursor: str | None = None
+
+
+Role = Literal["agent", "organiser"]

@@ -1,0 +1,56 @@
+"""The terms of a match that views repeat: noise and clock."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from referee.wire.values import Flag, Message, Number, Request
+
+NOISE_MAX = 5.0
+"""The greatest noise level: five times the Olympiad's sigmas."""
+
+
+class NoiseTerms(Request):
+    """Execution noise of a match.
+
+    Attributes:
+        level: factor on the Olympiad's sigmas; 1 is the standard, 0 leaves every bit of a shot.
+        told: whether the players are told the level.
+    """
+
+    level: Annotated[Number, Field(ge=0, le=NOISE_MAX)] = 1.0
+    told: Flag = True
+
+
+class ClockTerms(Request):
+    """Thinking time.
+
+    Attributes:
+        seconds: for each player and game.
+    """
+
+    seconds: Annotated[Number, Field(gt=0, le=86400)] = 300.0
+
+
+class NoiseView(Message):
+    """The noise as a view tells it: the level is null when the players are not told."""
+
+    told: bool
+    level: Number | None
+
+    @classmethod
+    def of(cls, terms: NoiseTerms) -> "NoiseView":
+        """What the players may know of these terms."""
+        return cls(told=terms.told, level=terms.level if terms.told else None)
+
+
+class ClockView(Message):
+    """A player's clock.
+
+    Attributes:
+        seconds_left: s; null in a game without clocks.
+        running: whether it is running now.
+    """
+
+    seconds_left: Number | None
+    running: bool

@@ -1,0 +1,60 @@
+"""Messages of the long-poll ``GET /v1/turns``."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, TypeAdapter
+
+from referee.wire.outcomes import OutcomeView
+from referee.wire.values import Digest, Flag, Identifier, Integer, Message, Number, Seat
+from referee.wire.view import View
+
+
+class Turn(Message):
+    """It is the caller's turn."""
+
+    type: Literal["turn"] = "turn"
+    game: Identifier
+    view: View
+
+
+class GameOver(Message):
+    """A game of the caller has ended; the message is delivered once.
+
+    Attributes:
+        noise_seed: the revealed seed, whose SHA-256 was the commitment.
+        record: path of the record.
+    """
+
+    type: Literal["game_over"] = "game_over"
+    game: Identifier
+    match: Identifier
+    number: Integer
+    seat: Seat
+    outcome: OutcomeView
+    won: Flag | None
+    score: tuple[Number, Number]
+    noise_seed: Digest
+    record: str
+    view: View
+
+
+class MatchOver(Message):
+    """A match of the caller has ended; the message is delivered once.
+
+    Attributes:
+        score: by seat. winner: seat; null for a drawn or aborted match.
+        status: ``finished`` or ``aborted``.
+    """
+
+    type: Literal["match_over"] = "match_over"
+    match: Identifier
+    seat: Seat
+    status: Literal["finished", "aborted"]
+    winner: Seat | None
+    score: tuple[Number, Number]
+
+
+TurnMessage = Annotated[Turn | GameOver | MatchOver, Field(discriminator="type")]
+
+TURN_MESSAGE: TypeAdapter[Turn | GameOver | MatchOver] = TypeAdapter(TurnMessage)
+"""Reads any of the three by its ``type``."""
