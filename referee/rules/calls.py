@@ -1,0 +1,89 @@
+"""R18 to R29: what a stroke with a call is worth, fouls and the 8 aside."""
+
+from physics.facts import NEVER
+from referee.game import Call, Evidence, Group, Phase
+from referee.rules.stroke import Finding, Stroke, group_of_ball
+
+
+def called_ball_made(stroke: Stroke) -> Finding:
+    """R24: the called ball fell in the called pocket, by whatever kisses, banks and combinations."""
+    call, facts = stroke.action.call, stroke.facts
+    if not isinstance(call, Call) or facts.pocketed[call.ball] == NEVER:
+        return ()
+    if facts.pocket[call.ball] != call.pocket:
+        return ()
+    return (Evidence("R24", (facts.pocketed[call.ball],), ball=call.ball, pocket=call.pocket),)
+
+
+def called_ball_elsewhere(stroke: Stroke) -> Finding:
+    """R25: the called ball fell, but in another pocket: not made, no foul, and it stays down."""
+    call, facts = stroke.action.call, stroke.facts
+    if not isinstance(call, Call) or facts.pocketed[call.ball] == NEVER or called_ball_made(stroke):
+        return ()
+    return (Evidence("R25", (facts.pocketed[call.ball],), ball=call.ball, pocket=facts.pocket[call.ball]),)
+
+
+def shooter_continues(stroke: Stroke, found: Finding) -> Finding:
+    """R28: the called ball legally in the called pocket, and nothing else, lets the shooter go on."""
+    return () if found else _cite("R28", called_ball_made(stroke))
+
+
+def called_ball_missed(stroke: Stroke) -> Finding:
+    """R28, the other way: the called ball was not pocketed, so the turn passes."""
+    call = stroke.action.call
+    if not isinstance(call, Call) or stroke.facts.pocketed[call.ball] != NEVER:
+        return ()
+    return (Evidence("R28", searched=stroke.searched(), ball=call.ball, pocket=call.pocket),)
+
+
+def safety_passes_turn(stroke: Stroke) -> Finding:
+    """R26: after a safety the turn passes, whatever was pocketed."""
+    if not stroke.action.is_safety:
+        return ()
+    return (Evidence("R26", tuple(stroke.facts.pocketed[ball] for ball in stroke.pocketed)),)
+
+
+def other_balls_pocketed(stroke: Stroke) -> Finding:
+    """R21 on an open table, R29 with groups: further balls pocketed decide nothing and stay down."""
+    rule = "R21" if stroke.game.groups is None else "R29"
+    call, facts = stroke.action.call, stroke.facts
+    called = call.ball if isinstance(call, Call) else None
+    others = (ball for ball in stroke.pocketed if ball != called)
+    return tuple(
+        Evidence(rule, (facts.pocketed[ball],), ball=ball, pocket=facts.pocket[ball]) for ball in others
+    )
+
+
+def table_stays_open(stroke: Stroke, found: Finding) -> bool:
+    """R22: a foul leaves an open table open (and so does a called ball that was not made)."""
+    return stroke.game.groups is None and not shooter_continues(stroke, found)
+
+
+def table_opens(stroke: Stroke) -> bool:
+    """R18: whatever the break pocketed, the table is open after it."""
+    return stroke.game.phase is Phase.BREAK
+
+
+def fixes_groups(stroke: Stroke, found: Finding) -> Finding:
+    """R19: on an open table, legally pocketing the called ball gives the shooter that ball's group."""
+    if stroke.game.groups is not None:
+        return ()
+    return _cite("R19", shooter_continues(stroke, found))
+
+
+def groups_after(stroke: Stroke, found: Finding) -> tuple[Group, Group] | None:
+    """The groups when the stroke is over."""
+    call = stroke.action.call
+    if table_opens(stroke) or not fixes_groups(stroke, found) or not isinstance(call, Call):
+        return stroke.game.groups
+    return assign(stroke.shooter, group_of_ball(call.ball))
+
+
+def assign(seat: int, group: Group) -> tuple[Group, Group]:
+    """Seat 0's and seat 1's group when ``seat`` has ``group``."""
+    other = Group.STRIPES if group is Group.SOLIDS else Group.SOLIDS
+    return (group, other) if seat == 0 else (other, group)
+
+
+def _cite(rule: str, found: Finding) -> Finding:
+    return tuple(Evidence(rule, one.events, one.searched, one.ball, one.pocket) for one in found)

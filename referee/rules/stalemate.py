@@ -1,0 +1,74 @@
+"""R49: a game that does not get on is replayed, and in the end drawn."""
+
+from dataclasses import dataclass, fields, replace
+
+from referee.errors import InvalidGame
+from referee.game import EndReason, Game, Outcome, Phase
+from referee.rules.stroke import Stroke
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """When a game counts as stuck.
+
+    Attributes:
+        dry_visits: consecutive visits without a pocketed object ball that make a stalemate.
+        replays: racks replayed for a stalemate before the next stalemate draws the game.
+        strokes: strokes in a game, replayed racks included, after which it is drawn.
+    """
+
+    dry_visits: int = 24
+    replays: int = 2
+    strokes: int = 400
+
+    def __post_init__(self) -> None:
+        for field, least in zip(fields(self), (1, 0, 1), strict=True):
+            value = getattr(self, field.name)
+            if isinstance(value, bool) or not isinstance(value, int) or value < least:
+                raise InvalidGame(f"limits.{field.name}", value, f"an integer of at least {least}")
+
+
+def dry_visits_after(stroke: Stroke, turn: int) -> int:
+    """R49: consecutive finished visits without a pocketed object ball, fouls included, when ``turn`` is next.
+
+    A scratch pockets no object ball. A visit of several strokes has pocketed one, or it would have ended.
+    """
+    if stroke.pocketed:
+        return 0
+    first_of_visit = stroke.game.visit_strokes == 0
+    return stroke.game.dry_visits + (first_of_visit and turn != stroke.shooter)
+
+
+def stroke_limit(game: Game, limits: Limits) -> Game | None:
+    """R49: the game drawn because its strokes are used up, or None."""
+    if game.is_over or game.stroke < limits.strokes:
+        return None
+    return over(game, Outcome(None, EndReason.STROKE_LIMIT, "R49"))
+
+
+def stalemate(game: Game, limits: Limits) -> Game | None:
+    """R49: the game sent to a replay of the rack by its first breaker, or drawn; None if it gets on."""
+    if game.is_over or game.dry_visits < limits.dry_visits:
+        return None
+    if game.replays >= limits.replays:
+        return over(game, Outcome(None, EndReason.STALEMATE, "R49"))
+    return replace(await_rack(game, game.breaker), dry_visits=0, replays=game.replays + 1)
+
+
+def await_rack(game: Game, turn: int) -> Game:
+    """The game waiting for a new rack, which ``turn`` will break."""
+    return replace(
+        game,
+        phase=Phase.RERACK,
+        turn=turn,
+        groups=None,
+        cue_ball_in_hand=None,
+        decisions=(),
+        choice=None,
+        visit_strokes=game.visit_strokes if turn == game.turn else 0,
+    )
+
+
+def over(game: Game, outcome: Outcome) -> Game:
+    """The game with its result."""
+    return replace(game, phase=Phase.OVER, cue_ball_in_hand=None, decisions=(), choice=None, outcome=outcome)
