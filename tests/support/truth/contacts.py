@@ -1,0 +1,194 @@
+"""The contact rule of the consistent set (PHYSICS "Contacts"): one instant of a touching cluster, in rounds.
+
+Each round acts from one common set of velocities; nothing depends on ball numbers.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from mpmath import mpc, mpf
+
+from support.truth.laws import apply_friction, bounce, normal, settle, tangential_impulse
+from support.truth.model import Ball, World, dot, energy
+from support.truth.motion import acceleration, classify
+from support.truth.octagon import Line, touched_cushions
+
+MIN_CLOSING = mpf("1e-14")
+"""Two touching balls that close with less than this acceleration (m/s^2) do not press on each other."""
+
+Pair = tuple[Ball, Ball]
+
+
+@dataclass
+class Cluster:
+    """Touching balls at one instant, their contacts, and what happened between them."""
+
+    world: World
+    balls: list[Ball]
+    pairs: list[Pair]
+    walls: list[tuple[Ball, Line]]
+    acted: list[tuple[str, int, int]] = field(default_factory=list)
+
+    def note(self, kind: str, first: int, second: int) -> None:
+        if (kind, first, second) not in self.acted:
+            self.acted.append((kind, first, second))
+
+
+def touching(world: World, one: Ball, two: Ball) -> bool:
+    return abs(two.position - one.position) - 2 * world.radius <= world.touch
+
+
+def make_cluster(world: World, sides: list[Line], balls: list[Ball]) -> Cluster:
+    pairs = [(p, q) for i, p in enumerate(balls) for q in balls[i + 1 :] if touching(world, p, q)]
+    walls = [(ball, line) for ball in balls for line in touched_cushions(world, sides, ball)]
+    return Cluster(world, balls, pairs, walls)
+
+
+def approach(pair: Pair) -> mpf:
+    one, two = pair
+    return dot(one.velocity - two.velocity, normal(one, two))
+
+
+def linked(pairs: Sequence[Pair]) -> list[list[Pair]]:
+    """Groups of pairs connected through shared balls."""
+    groups: list[list[Pair]] = []
+    for pair in pairs:
+        numbers = {ball.number for ball in pair}
+        joined = [g for g in groups if any(ball.number in numbers for p in g for ball in p)]
+        groups = [g for g in groups if g not in joined]
+        groups.append([pair, *(p for g in joined for p in g)])
+    return groups
+
+
+def normal_round(world: World, group: Sequence[Pair]) -> list[mpf]:
+    """lambda (1 + e) D, with D the sum of the plastic changes; returns the normal impulse of each pair per mass."""
+    change: dict[int, mpc] = {}
+    balls = {ball.number: ball for pair in group for ball in pair}
+    plastic = [approach(pair) / 2 for pair in group]
+    for (one, two), half in zip(group, plastic, strict=True):
+        n = normal(one, two)
+        change[one.number] = change.get(one.number, mpc(0)) - half * n
+        change[two.number] = change.get(two.number, mpc(0)) + half * n
+    work = sum(dot(balls[i].velocity, d) for i, d in change.items())
+    scale = -work / sum(dot(d, d) for d in change.values()) * (1 + world.e_ball)
+    for i, d in change.items():
+        balls[i].velocity += scale * d
+    return [scale * half for half in plastic]
+
+
+def ball_round(cluster: Cluster, acting: Sequence[Pair]) -> None:
+    """Step 1: normal impulses of all approaching pairs, then their friction, all at once."""
+    world, struck = cluster.world, []
+    for group in linked(acting):
+        struck += list(zip(group, normal_round(world, group), strict=True))
+    share = {ball.number: sum(ball in pair for pair in acting) for pair in acting for ball in pair}
+    frictions = [
+        tangential_impulse(world, one, two, normal(one, two), j, max(share[one.number], share[two.number]))
+        for (one, two), j in struck
+    ]
+    for ((one, two), _), impulse in zip(struck, frictions, strict=True):
+        apply_friction(world, one, two, normal(one, two), impulse)
+        cluster.note("ball_collision", *sorted((one.number, two.number)))
+
+
+def wall_round(cluster: Cluster, acting: Sequence[tuple[Ball, Line]]) -> None:
+    """Step 2: the cushion law above v_slow, settling below."""
+    for ball, line in acting:
+        if -dot(ball.velocity, line.inward) > cluster.world.v_slow:
+            bounce(cluster.world, ball, line)
+            cluster.note("rail_collision", ball.number, line.cushion)
+        else:
+            settle(ball, line)
+            cluster.note("settling", ball.number, line.cushion)
+
+
+def collide(cluster: Cluster) -> None:
+    """Steps 1 and 2 until nothing approaches faster than v_creep; the remainder is set to 0."""
+    creep = cluster.world.v_creep
+    while True:
+        acting = [pair for pair in cluster.pairs if approach(pair) > creep]
+        hits = [(b, line) for b, line in cluster.walls if -dot(b.velocity, line.inward) > creep]
+        if acting:
+            ball_round(cluster, acting)
+        elif hits:
+            wall_round(cluster, hits)
+        else:
+            break
+    remove_remainder(cluster)
+
+
+def remove_remainder(cluster: Cluster) -> None:
+    for (one, two), rest in [(pair, approach(pair)) for pair in cluster.pairs]:
+        if rest > 0:
+            n = normal(one, two)
+            one.velocity -= rest / 2 * n
+            two.velocity += rest / 2 * n
+    for ball, line in cluster.walls:
+        if dot(ball.velocity, line.inward) < 0:
+            ball.velocity -= dot(ball.velocity, line.inward) * line.inward
+
+
+def reclassify(cluster: Cluster) -> None:
+    for ball in cluster.balls:
+        classify(cluster.world, ball)
+
+
+def returning_to_wall(world: World, ball: Ball, line: Line) -> bool:
+    """Its own acceleration would bring the ball back to the cushion within tau."""
+    opening, inward = dot(ball.velocity, line.inward), dot(acceleration(world, ball), line.inward)
+    return inward < 0 and opening < -inward * world.tau / 2
+
+
+def closing_acceleration(world: World, pair: Pair) -> mpf:
+    """A = -n.(a2 - a1) - |v_t|^2 / (2R)."""
+    one, two = pair
+    n = normal(one, two)
+    relative = two.velocity - one.velocity
+    across = relative - dot(relative, n) * n
+    pull = dot(n, acceleration(world, two) - acceleration(world, one))
+    return -pull - dot(across, across) / (2 * world.radius)
+
+
+def part_pressed(cluster: Cluster) -> bool:
+    """Step 3: settle balls pressed to a cushion, part pairs that would meet again within tau; was there any?"""
+    world = cluster.world
+    pressed = [(ball, line) for ball, line in cluster.walls if returning_to_wall(world, ball, line)]
+    parted = []
+    for pair in cluster.pairs:
+        closing, opening = closing_acceleration(world, pair), -approach(pair)
+        if closing > MIN_CLOSING and opening < closing * world.tau / 2:
+            parted.append((pair, max(closing * world.tau / 2, 2 * world.v_creep) - opening))
+    for ball, line in pressed:
+        settle(ball, line)
+        cluster.note("settling", ball.number, line.cushion)
+    for (one, two), gain in parted:
+        n = normal(one, two)
+        one.velocity -= gain / 2 * n
+        two.velocity += gain / 2 * n
+        cluster.note("contact", one.number, two.number)
+    return bool(pressed or parted)
+
+
+def resolve(cluster: Cluster) -> None:
+    """The whole rule: collide, then part what presses, the energy never above that before the parting."""
+    world = cluster.world
+    collide(cluster)
+    reclassify(cluster)
+    before = sum(energy(world, ball) for ball in cluster.balls)
+    parted = False
+    while part_pressed(cluster):
+        parted = True
+        collide(cluster)
+        reclassify(cluster)
+    if parted:
+        limit_energy(cluster, before)
+
+
+def limit_energy(cluster: Cluster, before: mpf) -> None:
+    after = sum(energy(cluster.world, ball) for ball in cluster.balls)
+    if after <= before:
+        return
+    factor = mpf(0) if after > 2 * before else (before / after) ** mpf("0.5")
+    for ball in cluster.balls:
+        ball.velocity, ball.w_xy, ball.w_z = factor * ball.velocity, factor * ball.w_xy, factor * ball.w_z
+    reclassify(cluster)

@@ -1,0 +1,100 @@
+"""What the truth engine moves: balls in the plane as complex numbers, and the numbers of the table.
+
+A plane vector ``(x, y)`` is the complex number ``x + iy``: turning it left by 90 degrees (``k x v``) is a multiplication
+by ``i``. Everything is an mpmath number; doubles that come in are taken as exact. Nothing of ``physics`` is used.
+"""
+
+from dataclasses import dataclass, field, fields
+from enum import Enum
+
+from mpmath import mp, mpc, mpf
+
+
+class Motion(Enum):
+    """The motion states of [I] and the one after the last event of a ball."""
+
+    STATIONARY = "stationary"
+    SPINNING = "spinning"
+    SLIDING = "sliding"
+    ROLLING = "rolling"
+    POCKETED = "pocketed"
+
+
+MOVING = (Motion.SLIDING, Motion.ROLLING)
+
+
+@dataclass
+class Ball:
+    """A ball at time ``since``: position m, velocity m/s, angular velocity rad/s as ``w_xy`` (plane) and ``w_z``."""
+
+    number: int
+    position: mpc
+    velocity: mpc = field(default_factory=lambda: mpc(0))
+    w_xy: mpc = field(default_factory=lambda: mpc(0))
+    w_z: mpf = field(default_factory=lambda: mpf(0))
+    motion: Motion = Motion.STATIONARY
+    since: mpf = field(default_factory=lambda: mpf(0))
+
+    def copy(self) -> "Ball":
+        return Ball(*(getattr(self, f.name) for f in fields(self)))
+
+
+@dataclass(frozen=True)
+class World:
+    """Constants of a table, SI units, as doubles (PHYSICS "Olympiad table and constants", "Contacts")."""
+
+    width: float = 1.116
+    length: float = 2.236
+    radius: float = 0.028575
+    corner_mouth: float = 0.11
+    side_mouth: float = 0.12
+    gravity: float = 9.81
+    ball_mass: float = 0.16301
+    cue_mass: float = 0.160 / 0.302631579
+    mu_slide: float = 0.2
+    mu_roll: float = 0.015
+    mu_spin: float = 0.044
+    mu_ball: float = 0.01
+    e_ball: float = 1.0
+    cushion_parallel: float = 0.9
+    cushion_perpendicular: float = 0.6
+    cushion_spin: float = 0.1
+    touch: float = 1e-12
+    v_creep: float = 1e-9
+    v_slow: float = 1e-3
+    tau: float = 1e-3
+    historical: bool = False
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if isinstance(value, float):
+                object.__setattr__(self, name, mpf(value))
+
+    @property
+    def slip_zero(self) -> mpf:
+        """Slips and speeds up to this count as 0 (m/s)."""
+        return mpf("1e-10") if self.historical else mpf("1e-12")
+
+    @property
+    def corner(self) -> mpf:
+        """The corner mouth's share of each cushion, cp = 0.11 / sqrt 2."""
+        return self.corner_mouth / mp.sqrt(2)
+
+
+def dot(a: mpc, b: mpc) -> mpf:
+    return a.real * b.real + a.imag * b.imag
+
+
+def unit(a: mpc) -> mpc:
+    return a / abs(a)
+
+
+def slip(world: World, ball: Ball) -> mpc:
+    """Slip at the cloth, u = v + R k x w."""
+    return ball.velocity + world.radius * 1j * ball.w_xy
+
+
+def energy(world: World, ball: Ball) -> mpf:
+    """Kinetic energy per mass: v^2/2 + (2/5 R^2) w^2/2."""
+    spin2 = dot(ball.w_xy, ball.w_xy) + ball.w_z**2
+    return (dot(ball.velocity, ball.velocity) + mpf(2) / 5 * world.radius**2 * spin2) / 2
