@@ -1,0 +1,73 @@
+"""Play pool against a referee: the SDK for a Pooliad server, agents, local matches, and the `pooliad`
+command.
+
+`Pooliad` and `AsyncPooliad` speak the protocol, `Agent` is what a player writes, `run_agent` plays it on a
+server and `play` without one. Names are loaded when first used, so that importing this package is quick.
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from client.agent import Agent, AgentFactory
+    from client.agents.registry import load
+    from client.aio import AsyncPooliad
+    from client.errors import PooliadError
+    from client.http import Pooliad
+    from client.local import LocalGame, LocalMatch, play
+    from client.retry import Retry
+    from client.run import run_agent
+    from referee import SAFETY, Action, Call, Decision
+    from referee.wire import GameOver, MatchRequest, View
+
+__all__ = [
+    "SAFETY",
+    "Action",
+    "Agent",
+    "AgentFactory",
+    "AsyncPooliad",
+    "Call",
+    "Decision",
+    "GameOver",
+    "LocalGame",
+    "LocalMatch",
+    "MatchRequest",
+    "Pooliad",
+    "PooliadError",
+    "Retry",
+    "View",
+    "load",
+    "play",
+    "run_agent",
+]
+
+_HOMES = {
+    "Agent": "client.agent",
+    "AgentFactory": "client.agent",
+    "load": "client.agents.registry",
+    "AsyncPooliad": "client.aio",
+    "PooliadError": "client.errors",
+    "Pooliad": "client.http",
+    "LocalGame": "client.local",
+    "LocalMatch": "client.local",
+    "play": "client.local",
+    "Retry": "client.retry",
+    "run_agent": "client.run",
+    "SAFETY": "referee",
+    "Action": "referee",
+    "Call": "referee",
+    "Decision": "referee",
+    "GameOver": "referee.wire",
+    "MatchRequest": "referee.wire",
+    "View": "referee.wire",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'client' has no attribute {name!r}; it exports {', '.join(__all__)}")
+    return getattr(importlib.import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

@@ -1,0 +1,33 @@
+"""What a player writes: one method that looks at a view and answers with an action."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+
+from referee import Action
+from referee.wire import GameOver, View
+
+
+class Agent(ABC):
+    """A pool-playing program. Every game gets an instance of its own, so attributes are one game's memory.
+
+    An exception in `choose`, or an action that the referee refuses, costs nothing but time: it is logged, and
+    `choose` is asked again until the player's clock has run out.
+    """
+
+    @abstractmethod
+    def choose(self, view: View) -> Action:
+        """Answer a turn: a stroke with its call, or a decision.
+
+        `view` holds everything the player may know; `view.state` and `view.table_model()` are what the
+        physics takes.
+        """
+
+    def game_started(self, view: View) -> None:  # noqa: B027 - a hook: doing nothing is the right default
+        """Called once before the first `choose` of a game."""
+
+    def game_over(self, over: GameOver) -> None:  # noqa: B027 - a hook: doing nothing is the right default
+        """Called once when the game has ended."""
+
+
+AgentFactory = Callable[[], Agent]
+"""Makes one instance; an `Agent` class is such a factory."""

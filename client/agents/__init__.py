@@ -1,0 +1,1 @@
+"""The shipped agents; `client.agents.registry` knows them by name."""

@@ -1,0 +1,153 @@
+"""The agent: gather plans, judge them under noise, play the best."""
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from client.agent import Agent
+from client.agents.chance import generator
+from client.agents.greedy import places
+from client.agents.greedy.candidates import Candidates
+from client.agents.greedy.judge import Judge
+from client.agents.greedy.plan import Plan
+from client.geometry import Point, pots
+from physics import Table, TableState
+from referee import Action, Call, CueBallArea, Decision, EightBall, Game, Phase
+from referee.wire import View
+
+USUAL_NOISE = 1.0
+"""The level to reckon with when the game does not tell."""
+POTS, PLACES = 12, 16
+"""The easiest pots of a position, and the most promising places of a cue ball in hand, that are
+considered.
+"""
+FINALISTS, VARIANTS = 12, 24
+"""Plans judged under noise, and the noisy variants of each. 24 tell 0.3 from 0.6 of success; more cost
+time.
+"""
+CONTENT = 0.45
+"""A pot worth this much is played without looking at other directions: about as good as one try in three."""
+BREAKING, RECEIVING = 0.5, 0.45
+"""What a new rack is worth to the player who breaks it, and to the other."""
+
+
+class GreedyAgent(Agent):
+    """Plays the stroke of the greatest expected worth, looking no further than that stroke.
+
+    Args:
+        seed: repeats its choices; None draws fresh ones.
+    """
+
+    def __init__(self, seed: int | None = None) -> None:
+        self._seed = seed
+
+    def game_started(self, view: View) -> None:
+        """Set up for this game's table and noise."""
+        self._chance = generator(self._seed, view)
+        self._noise = USUAL_NOISE if view.noise.level is None else view.noise.level
+        self._rules = EightBall(view.table_model())
+
+    def choose(self, view: View) -> Action:
+        """The best stroke, or the decision that leads to the best one."""
+        turn = _Turn(self._rules, view.to_game(), self._noise, self._chance)
+        return turn.best_stroke()[0] if view.allowed.decisions == () else turn.best_decision()
+
+
+class _Turn:
+    """One turn: everything that depends on how the game stands."""
+
+    def __init__(self, rules: EightBall, game: Game, noise: float, chance: np.random.Generator) -> None:
+        self._rules, self._game, self._noise, self._chance = rules, game, noise, chance
+        self._candidates = Candidates(rules.table, noise)
+        self._judge = Judge(rules, game, noise, chance)
+
+    @property
+    def _table(self) -> Table:
+        return self._rules.table
+
+    def best_decision(self) -> Action:
+        """The decision after which this player stands best."""
+        worths = {each: self._worth_after(each) for each in self._game.decisions}
+        return Action(decision=max(worths, key=lambda each: worths[each]))
+
+    def _worth_after(self, decision: Decision) -> float:
+        """What a decision is worth: of those to play on, the worth of the stroke that follows."""
+        if decision is Decision.OPPONENT_RERACKS:
+            return RECEIVING
+        ruling = self._rules.apply(self._game, Action(decision=decision), None, None)
+        if ruling.rerack:
+            return BREAKING
+        follow = _Turn(self._rules, ruling.game, self._noise, self._chance)
+        return follow.best_stroke()[1]
+
+    def best_stroke(self) -> tuple[Action, float]:
+        """The stroke of the greatest expected worth, and that worth."""
+        if self._game.phase is Phase.BREAK:
+            return self._best_of(self._break_plans())
+        plans = self._made_as_intended(self._pot_plans())
+        best = self._best_of(plans) if plans else None
+        if best is not None and best[1] >= CONTENT:
+            return best
+        return self._best_of([*plans, *self._other_plans()])
+
+    def _best_of(self, plans: Sequence[Plan]) -> tuple[Action, float]:
+        """The best of the plans under noise."""
+        worths = self._judge.worths(plans, VARIANTS if self._noise > 0.0 else 0)
+        best = int(np.argmax(worths))
+        return plans[best].action, float(worths[best])
+
+    def _pot_plans(self) -> list[Plan]:
+        """Open pots from where the cue ball lies, or from where it could be put."""
+        balls = self._rules.legal(self._game).callable
+        if self._game.cue_ball_in_hand is None:
+            return self._candidates.pots(self._game.state, None, balls, POTS)
+        placed = [(place, self._game.state.moved(0, place)) for place in self._places(balls)]
+        return [plan for place, before in placed for plan in self._candidates.pots(before, place, balls, 2)]
+
+    def _places(self, balls: tuple[int, ...]) -> list[Point]:
+        """Where to put the cue ball: the places with the most forgiving pots."""
+        area = self._game.cue_ball_in_hand or CueBallArea.ANYWHERE
+        state = self._game.state
+        found = places.straight(self._table, state, balls, area) or places.scattered(self._table, state, area)
+        return sorted(found, key=lambda place: -self._ease(state.moved(0, place), balls))[:PLACES]
+
+    def _ease(self, before: TableState, balls: tuple[int, ...]) -> float:
+        """How forgiving the easiest pot is (deg)."""
+        return max((pot.tolerance for pot in pots(self._table, before, balls)), default=0.0)
+
+    def _made_as_intended(self, plans: Sequence[Plan]) -> list[Plan]:
+        """The plans that are worth most without noise, at most `FINALISTS`."""
+        if not plans:
+            return []
+        worths = self._judge.worths(plans, 0)
+        order = np.argsort(-worths, kind="stable")[:FINALISTS]
+        return [plans[index] for index in order]
+
+    def _other_plans(self) -> list[Plan]:
+        """The best of all directions: safeties, kicks, and whatever ball such a stroke happens to make."""
+        area = self._game.cue_ball_in_hand
+        state = self._game.state
+        if area is None:
+            return self._made_as_intended(self._called(self._candidates.fan(state, None)))
+        place = places.scattered(self._table, state, area)[0]
+        return self._made_as_intended(self._called(self._candidates.fan(state.moved(0, place), place)))
+
+    def _called(self, plans: Sequence[Plan]) -> list[Plan]:
+        """The plans, those that make a ball of their own calling that ball."""
+        balls = self._rules.legal(self._game).callable
+        lucky = self._judge.pocketed(plans, balls)
+        return [_calling(plan, call) for plan, call in zip(plans, lucky, strict=True)]
+
+    def _break_plans(self) -> list[Plan]:
+        """Breaks from just behind the head string."""
+        state = self._game.state
+        spots = places.for_break(self._table, state)
+        return [plan for place in spots for plan in self._candidates.breaks(state.moved(0, place), place)]
+
+
+def _calling(plan: Plan, call: Call | None) -> Plan:
+    """The plan with another call, when there is one."""
+    if call is None:
+        return plan
+    return Plan(dataclasses.replace(plan.action, call=call), plan.before)

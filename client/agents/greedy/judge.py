@@ -1,0 +1,74 @@
+"""How good plans are under the game's noise: simulate many noisy variants of each, let the referee rule on
+them.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from client.agents.greedy.plan import Plan
+from client.agents.greedy.worth import worth
+from physics import simulate_batch
+from physics.shot import FIELDS, THETA_MAX, V_MAX
+from referee import Call, EightBall, Game
+from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
+
+SIGMAS = dict(zip(FIELDS, (SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B), strict=True))
+
+
+class Judge:
+    """Judges the strokes of one turn.
+
+    Args:
+        rules: the referee on the game's table.
+        game: as it stands; the player in turn is the one whose worth counts.
+        noise: the noise level to reckon with.
+        chance: where the variants come from.
+    """
+
+    def __init__(self, rules: EightBall, game: Game, noise: float, chance: np.random.Generator) -> None:
+        self._rules = rules
+        self._game = game
+        self._spread = noise * np.array([SIGMAS[name] for name in FIELDS])
+        self._chance = chance
+
+    def worths(self, plans: Sequence[Plan], variants: int) -> NDArray[np.float64]:
+        """Mean worth of each plan over so many noisy variants, (n,); with 0 variants, of the plan as
+        intended.
+        """
+        copies = max(1, variants)
+        shots = np.repeat([_columns(plan) for plan in plans], copies, axis=0)
+        if variants:
+            shots = self._disturbed(shots)
+        before = np.repeat([plan.before.positions for plan in plans], copies, axis=0)
+        batch = simulate_batch(self._rules.table, before, shots)
+        actions = [plan.action for plan in plans for _ in range(copies)]
+        rulings = self._rules.apply_batch(self._game, actions, batch)
+        each = [worth(ruling.game, self._game.turn) for ruling in rulings]
+        mean: NDArray[np.float64] = np.reshape(each, (len(plans), copies)).mean(axis=1)
+        return mean
+
+    def pocketed(self, plans: Sequence[Plan], balls: Sequence[int]) -> list[Call | None]:
+        """For each plan the first of `balls` that it sends into a pocket as intended, as a call."""
+        before = np.array([plan.before.positions for plan in plans])
+        batch = simulate_batch(self._rules.table, before, np.array([_columns(plan) for plan in plans]))
+        into = batch.pocket[:, list(balls)]
+        first = (into >= 0).argmax(axis=1)
+        rows = zip(first.tolist(), into[np.arange(len(plans)), first].tolist(), strict=True)
+        return [Call(balls[index], pocket) if pocket >= 0 else None for index, pocket in rows]
+
+    def _disturbed(self, shots: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The shots with noise as the game adds it: speed and elevation clamped to their range."""
+        noisy = shots + self._spread * self._chance.standard_normal(shots.shape)
+        noisy[:, 0] = np.clip(noisy[:, 0], 0.0, V_MAX)
+        noisy[:, 2] = np.clip(noisy[:, 2], 0.0, THETA_MAX)
+        return noisy
+
+
+def _columns(plan: Plan) -> tuple[float, ...]:
+    """A plan's shot as a row of a batch."""
+    shot = plan.action.shot
+    if shot is None:
+        raise ValueError(f"{plan.action!r} is a decision; only strokes are simulated")
+    return tuple(getattr(shot, name) for name in FIELDS)

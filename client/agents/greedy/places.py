@@ -1,0 +1,47 @@
+"""Where to put a cue ball in hand: straight behind a ball that a pocket awaits, or somewhere on a lattice."""
+
+from client.geometry import Point, distance, ghost_ball, is_clear, is_free, lattice
+from physics import Table, TableState
+from referee import CueBallArea
+
+GAPS = (0.12, 0.3)
+"""Metres between the cue ball's place and where it strikes: near for precision, further to leave room for
+the cue.
+"""
+COLUMNS, ROWS = 5, 3
+"""Of the lattice that is tried when no ball can be shot at straight."""
+BREAK_COLUMNS = 5
+
+
+def straight(table: Table, state: TableState, balls: tuple[int, ...], area: CueBallArea) -> list[Point]:
+    """Free places on the far side of a ball from a pocket, in line with both, with nothing in between."""
+    kitchen = area is CueBallArea.KITCHEN
+    lines = [(ball, table.mouths[pocket]) for ball in balls for pocket in range(6)]
+    found = [
+        place
+        for ball, mouth in lines
+        for place in _behind(table, state, ball, (float(mouth[0]), float(mouth[1])))
+    ]
+    return [place for place in found if is_free(table, state, place, kitchen)]
+
+
+def scattered(table: Table, state: TableState, area: CueBallArea) -> list[Point]:
+    """Free places all over the area."""
+    return lattice(table, state, COLUMNS, ROWS, kitchen=area is CueBallArea.KITCHEN)
+
+
+def for_break(table: Table, state: TableState) -> list[Point]:
+    """Free places just behind the head string."""
+    places = lattice(table, state, BREAK_COLUMNS, 8, kitchen=True)
+    return places[:BREAK_COLUMNS]
+
+
+def _behind(table: Table, state: TableState, ball: int, mouth: Point) -> list[Point]:
+    """Places from which the pot is straight, when the way to the pocket is open."""
+    lies = state.position(ball)
+    if lies is None or not is_clear(state, lies, mouth, table.ball_radius, ignore=(0, ball)):
+        return []
+    ghost = ghost_ball(lies, mouth, table.ball_radius)
+    run = distance(lies, mouth)
+    step = (mouth[0] - lies[0]) / run, (mouth[1] - lies[1]) / run
+    return [(ghost[0] - gap * step[0], ghost[1] - gap * step[1]) for gap in GAPS]

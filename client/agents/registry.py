@@ -1,0 +1,45 @@
+"""Agents by name: the shipped ones, and anybody's as `module:Class`."""
+
+import importlib
+from functools import partial
+from typing import Any
+
+from client.agent import Agent, AgentFactory
+from client.errors import AgentNotFound
+
+SHIPPED = {
+    "random": "client.agents.random_agent:RandomAgent",
+    "greedy": "client.agents.greedy:GreedyAgent",
+}
+"""Name to import path. The classes are imported when asked for: `greedy` needs the compiled physics."""
+
+
+def load(name: str, seed: int | None = None) -> AgentFactory:
+    """A function that makes instances of the agent called `name`.
+
+    Args:
+        name: of a shipped agent, or `module:Class` with the module on the import path.
+        seed: makes a shipped agent repeat its choices; other agents keep their own randomness.
+
+    Raises:
+        AgentNotFound: no such name, module or class, or the class is no `client.Agent`.
+    """
+    if name in SHIPPED:
+        return partial(_class_at(SHIPPED[name]), seed=seed)
+    return _class_at(name)
+
+
+def _class_at(path: str) -> Any:
+    """The agent class at an import path."""
+    module, _, attribute = path.partition(":")
+    if not module or not attribute:
+        raise AgentNotFound(
+            f"there is no agent {path!r}; shipped are {sorted(SHIPPED)}, others go by module:Class"
+        )
+    try:
+        found = getattr(importlib.import_module(module), attribute)
+    except (ImportError, AttributeError) as error:
+        raise AgentNotFound(f"agent {path!r} cannot be imported: {error}") from error
+    if not (isinstance(found, type) and issubclass(found, Agent)):
+        raise AgentNotFound(f"agent {path!r} is {found!r}, which is no subclass of client.Agent")
+    return found

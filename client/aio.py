@@ -1,0 +1,155 @@
+"""The asynchronous client: the same calls as `client.http`, awaited."""
+
+import asyncio
+from types import TracebackType
+from typing import Self
+
+import httpx2
+
+from client import calls
+from client.calls import TurnMessage
+from client.exchange import Answer, Call, Outcome, Step, Wait, exchange
+from client.retry import Retry
+from physics import Shot, Table, TableState
+from referee import Action
+from referee.wire import (
+    AgentList,
+    AgentToken,
+    BatchAnswer,
+    GameAnswer,
+    MatchList,
+    MatchRequest,
+    MatchView,
+    MinElevationAnswer,
+    ShotsPage,
+    SimulateAnswer,
+    StrokeAnswer,
+)
+
+
+class AsyncPooliad:
+    """`client.Pooliad` for asyncio: the same arguments, methods, answers and errors.
+
+    Args:
+        url: the server's address, e.g. `http://127.0.0.1:8000`.
+        token: of an agent or an organiser; None for what is public.
+        retry: how patient to be.
+        transport: of `httpx2`, for tests and special networks.
+    """
+
+    def __init__(
+        self,
+        url: str,
+        token: str | None = None,
+        *,
+        retry: Retry | None = None,
+        transport: httpx2.AsyncBaseTransport | None = None,
+    ) -> None:
+        self._retry = retry or Retry()
+        self._http = httpx2.AsyncClient(base_url=url, headers=calls.authorization(token), transport=transport)
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        """Close the connections."""
+        await self._http.aclose()
+
+    async def register(self, name: str) -> AgentToken:
+        """Register an agent; the answer holds its token, which is shown this once."""
+        return await self._send(calls.register(name))
+
+    async def agents(self, cursor: str | None = None) -> AgentList:
+        """One page of the registered agents."""
+        return await self._send(calls.agents(cursor))
+
+    async def rotate_token(self, agent: str) -> AgentToken:
+        """Replace an agent's token by a new one."""
+        return await self._send(calls.rotate_token(agent))
+
+    async def revoke_token(self, agent: str) -> None:
+        """Make an agent's token worthless."""
+        return await self._send(calls.revoke_token(agent))
+
+    async def create_match(self, request: MatchRequest) -> MatchView:
+        """Set up a match (organiser), or challenge the other agent (one of the two)."""
+        return await self._send(calls.create_match(request))
+
+    async def matches(self, cursor: str | None = None) -> MatchList:
+        """One page of the matches, the newest first."""
+        return await self._send(calls.matches(cursor))
+
+    async def match(self, match_id: str) -> MatchView:
+        """A match and how its games stand."""
+        return await self._send(calls.match(match_id))
+
+    async def accept(self, match_id: str) -> MatchView:
+        """Accept a challenge."""
+        return await self._send(calls.accept(match_id))
+
+    async def abort(self, match_id: str) -> MatchView:
+        """Stop a match."""
+        return await self._send(calls.abort(match_id))
+
+    async def turns(self, wait: float = 30.0) -> TurnMessage | None:
+        """Wait up to `wait` seconds for the caller's next message; None when there is none."""
+        return await self._send(calls.turns(wait))
+
+    async def play(self, game_id: str, version: int, action: Action) -> StrokeAnswer:
+        """Answer the view with this version: a stroke, a decision or a concession."""
+        return await self._send(calls.play(game_id, version, action))
+
+    async def game(self, game_id: str) -> GameAnswer:
+        """A game and the caller's view of it."""
+        return await self._send(calls.game(game_id))
+
+    async def shots(self, game_id: str, cursor: int | None = None) -> ShotsPage:
+        """One page of a game's strokes, from `cursor` on."""
+        return await self._send(calls.shots(game_id, cursor))
+
+    async def record(self, game_id: str) -> bytes:
+        """The record of a finished game: JSON lines that `pooliad replay verify` accepts."""
+        return await self._send(calls.record(game_id))
+
+    async def simulate(
+        self, table: Table, state: TableState, shot: Shot, trace: bool = True
+    ) -> SimulateAnswer:
+        """One shot on the server's physics."""
+        return await self._send(calls.simulate(table, state, shot, trace))
+
+    async def simulate_batch(self, table: Table, state: TableState, shots: list[Shot]) -> BatchAnswer:
+        """Many shots from one position on the server's physics."""
+        return await self._send(calls.simulate_batch(table, state, shots))
+
+    async def min_elevation(
+        self, table: Table, state: TableState, phi: float, a: float = 0.0, b: float = 0.0
+    ) -> MinElevationAnswer:
+        """The least elevation (deg) at which the cue is free; None when there is none."""
+        return await self._send(calls.min_elevation(table, state, phi, a, b))
+
+    async def _send(self, call: Call[Answer]) -> Answer:
+        """Drive the exchange without blocking the event loop."""
+        steps = exchange(call, self._retry)
+        outcome: Outcome = None
+        while True:
+            try:
+                step = steps.send(outcome)
+            except StopIteration as end:
+                answer: Answer = end.value
+                return answer
+            outcome = await self._do(step)
+
+    async def _do(self, step: Step) -> Outcome:
+        """Wait, or send a request."""
+        if isinstance(step, Wait):
+            await asyncio.sleep(step.seconds)
+            return None
+        try:
+            return await self._http.request(step.method, step.path, **step.arguments())
+        except httpx2.TransportError as error:
+            return error

@@ -1,0 +1,188 @@
+"""Every request of the protocol as a value: where it goes, what it carries, how its answer is read.
+
+Both clients send what these functions return. A request that changes something gets its `Idempotency-Key`
+here, once per logical request, so that however often it is repeated the server carries it out once.
+Registering an agent is the exception: its answer holds a token that the server does not keep, so it could
+not be repeated.
+"""
+
+import uuid
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import httpx2
+from pydantic import BaseModel
+
+from client.exchange import IDEMPOTENCY_KEY, Call
+from physics import Shot, Table, TableState
+from referee import Action, Decision
+from referee.wire import (
+    TURN_MESSAGE,
+    AgentList,
+    AgentToken,
+    BatchAnswer,
+    BatchRequest,
+    DecisionRequest,
+    GameAnswer,
+    GameOver,
+    MatchList,
+    MatchOver,
+    MatchRequest,
+    MatchView,
+    MinElevationAnswer,
+    MinElevationRequest,
+    ShotParameters,
+    ShotRequest,
+    ShotsPage,
+    SimulateAnswer,
+    SimulateRequest,
+    StrokeAnswer,
+    Turn,
+)
+
+Model = TypeVar("Model", bound=BaseModel)
+TurnMessage = Turn | GameOver | MatchOver
+"""What `turns` brings: it is your turn, a game is over, the match is over."""
+
+NO_CONTENT = 204
+
+
+def authorization(token: str | None) -> dict[str, str]:
+    """The header that says who is calling."""
+    return {} if token is None else {"Authorization": f"Bearer {token}"}
+
+
+def register(name: str) -> Call[AgentToken]:
+    """Register an agent; the answer shows its token, once."""
+    return Call("POST", "/v1/agents", _reader(AgentToken), body={"name": name})
+
+
+def agents(cursor: str | None = None) -> Call[AgentList]:
+    """One page of the registered agents."""
+    return Call("GET", "/v1/agents", _reader(AgentList), params=_cursor(cursor))
+
+
+def rotate_token(agent: str) -> Call[AgentToken]:
+    """Replace an agent's token."""
+    return Call("POST", f"/v1/agents/{agent}/token", _reader(AgentToken), headers=_key())
+
+
+def revoke_token(agent: str) -> Call[None]:
+    """Make an agent's token worthless."""
+    return Call("DELETE", f"/v1/agents/{agent}/token", _nothing, headers=_key())
+
+
+def create_match(request: MatchRequest) -> Call[MatchView]:
+    """Set up a match, or challenge the other agent to one."""
+    return Call("POST", "/v1/matches", _reader(MatchView), headers=_key(), body=_json(request))
+
+
+def matches(cursor: str | None = None) -> Call[MatchList]:
+    """One page of the matches, the newest first."""
+    return Call("GET", "/v1/matches", _reader(MatchList), params=_cursor(cursor))
+
+
+def match(match_id: str) -> Call[MatchView]:
+    """A match and how its games stand."""
+    return Call("GET", f"/v1/matches/{match_id}", _reader(MatchView))
+
+
+def accept(match_id: str) -> Call[MatchView]:
+    """Accept a challenge."""
+    return Call("POST", f"/v1/matches/{match_id}/accept", _reader(MatchView), headers=_key())
+
+
+def abort(match_id: str) -> Call[MatchView]:
+    """Stop a match."""
+    return Call("POST", f"/v1/matches/{match_id}/abort", _reader(MatchView), headers=_key())
+
+
+def turns(wait: float) -> Call[TurnMessage | None]:
+    """Wait up to `wait` seconds for the caller's next message; None when there is none."""
+    return Call("GET", "/v1/turns", _turn, params={"wait": f"{wait:g}"}, poll=wait)
+
+
+def play(game_id: str, version: int, action: Action) -> Call[StrokeAnswer]:
+    """Answer the view with this version: a stroke, a decision or a concession."""
+    headers = _key() | {"If-Match": f'"{version}"'}
+    if action.decision is Decision.CONCEDE:
+        return Call("POST", f"/v1/games/{game_id}/concede", _reader(StrokeAnswer), headers=headers)
+    if action.decision is not None:
+        decision = _json(DecisionRequest(decision=action.decision))
+        path = f"/v1/games/{game_id}/decisions"
+        return Call("POST", path, _reader(StrokeAnswer), headers=headers, body=decision)
+    stroke = _json(ShotRequest.of(action))
+    return Call("POST", f"/v1/games/{game_id}/shots", _reader(StrokeAnswer), headers=headers, body=stroke)
+
+
+def game(game_id: str) -> Call[GameAnswer]:
+    """A game and the caller's view of it."""
+    return Call("GET", f"/v1/games/{game_id}", _reader(GameAnswer))
+
+
+def shots(game_id: str, cursor: int | None = None) -> Call[ShotsPage]:
+    """One page of a game's strokes, from `cursor` on."""
+    return Call("GET", f"/v1/games/{game_id}/shots", _reader(ShotsPage), params=_cursor(cursor))
+
+
+def record(game_id: str) -> Call[bytes]:
+    """The record of a finished game, JSON lines as `pooliad replay verify` takes them."""
+    return Call("GET", f"/v1/games/{game_id}/record", lambda response: response.content)
+
+
+def simulate(table: Table, state: TableState, shot: Shot, trace: bool) -> Call[SimulateAnswer]:
+    """One shot on the server's physics."""
+    request = SimulateRequest.model_validate(
+        _scene(table, state) | {"shot": ShotParameters.of(shot), "trace": trace}
+    )
+    return Call("POST", "/v1/simulate", _reader(SimulateAnswer), body=_json(request), pure=True)
+
+
+def simulate_batch(table: Table, state: TableState, shots: list[Shot]) -> Call[BatchAnswer]:
+    """Many shots from one position on the server's physics."""
+    request = BatchRequest.model_validate(
+        _scene(table, state) | {"shots": tuple(ShotParameters.of(shot) for shot in shots)}
+    )
+    return Call("POST", "/v1/simulate/batch", _reader(BatchAnswer), body=_json(request), pure=True)
+
+
+def min_elevation(
+    table: Table, state: TableState, phi: float, a: float, b: float
+) -> Call[MinElevationAnswer]:
+    """The least elevation (deg) at which the cue is free."""
+    request = MinElevationRequest.model_validate(_scene(table, state) | {"phi": phi, "a": a, "b": b})
+    return Call("POST", "/v1/min-elevation", _reader(MinElevationAnswer), body=_json(request), pure=True)
+
+
+def _scene(table: Table, state: TableState) -> dict[str, Any]:
+    """The table and the balls, as the physics endpoints take them."""
+    return {"table": table.to_dict(), "balls": state.to_dict()}
+
+
+def _json(request: BaseModel) -> Any:
+    """A request's JSON body."""
+    return request.model_dump(mode="json")
+
+
+def _key() -> dict[str, str]:
+    """A fresh idempotency key."""
+    return {IDEMPOTENCY_KEY: str(uuid.uuid4())}
+
+
+def _cursor(cursor: str | int | None) -> dict[str, str]:
+    """The query that asks for the page at `cursor`."""
+    return {} if cursor is None else {"cursor": str(cursor)}
+
+
+def _reader(model: type[Model]) -> Callable[[httpx2.Response], Model]:
+    """A function that reads a response's JSON body into `model`."""
+    return lambda response: model.model_validate_json(response.content)
+
+
+def _nothing(_response: httpx2.Response) -> None:
+    """For answers without a body."""
+
+
+def _turn(response: httpx2.Response) -> TurnMessage | None:
+    """A long poll's message; None for 204."""
+    return None if response.status_code == NO_CONTENT else TURN_MESSAGE.validate_json(response.content)

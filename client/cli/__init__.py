@@ -1,0 +1,41 @@
+"""The `pooliad` command. One file a command; each imports what it needs when it runs, so that help is
+quick.
+"""
+
+import sys
+
+import typer
+
+from client.cli import agent, demo, doctor, replay, serve, simulate
+from client.cli.output import FAILED
+
+
+def application() -> typer.Typer:
+    """The command with all its subcommands."""
+    app = typer.Typer(
+        name="pooliad",
+        help="Computational pool: simulate, play, serve and replay 8-ball matches between programs.",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    app.command("demo")(demo.demo)
+    app.command("serve")(serve.serve)
+    app.command("simulate")(simulate.simulate)
+    app.command("doctor")(doctor.doctor)
+    app.add_typer(agent.commands(), name="agent")
+    app.add_typer(replay.commands(), name="replay")
+    return app
+
+
+def main() -> None:
+    """Entry point: an error of ours is one line on standard error, never a traceback."""
+    try:
+        application()()
+    except Exception as error:
+        from client.errors import PooliadError
+
+        if not isinstance(error, PooliadError | OSError):
+            raise
+        print(f"pooliad: {error}", file=sys.stderr)
+        sys.exit(FAILED)

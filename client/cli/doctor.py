@@ -1,0 +1,144 @@
+"""`pooliad doctor`: is everything here that playing needs, and which of it is it?"""
+
+from typing import Annotated, Any
+
+import typer
+
+from client.cli.output import Json, emit, fail
+
+PACKAGES = ("physics", "referee", "server", "client")
+LIBRARIES = ("numpy", "numba", "pydantic", "httpx2", "typer", "rich")
+SERVER_LIBRARIES = ("fastapi", "uvicorn", "sqlalchemy", "alembic")
+
+
+def doctor(
+    port: Annotated[int, typer.Option(min=1, max=65535, help="Port that `serve` would use.")] = 8080,
+    database: Annotated[
+        str, typer.Option(envvar="POOLIAD_DATABASE", help="Database that `serve` would use.")
+    ] = "sqlite:///pooliad.db",
+    as_json: Json = False,
+) -> None:
+    """Show versions, where packages load from, the kernel cache, database, port, and a self-test.
+
+    Leaves with 1 when something that playing needs does not work.
+    """
+    report = {
+        "versions": _versions(),
+        "packages": {name: _origin(name) for name in PACKAGES},
+        "kernel_cache": _kernel_cache(),
+        "database": _database(database),
+        "port": _port(port),
+        "self_test": _self_test(),
+    }
+    faults = _faults(report)
+    if as_json:
+        emit(report | {"ok": not faults, "faults": faults})
+    else:
+        _tell(report)
+    if faults:
+        fail("; ".join(faults))
+
+
+def _versions() -> dict[str, str | None]:
+    """Version of Python, of this distribution and of its libraries; None where one is not installed."""
+    import platform
+    from importlib import metadata
+
+    versions: dict[str, str | None] = {"python": platform.python_version(), "platform": platform.platform()}
+    for name in ("pooliad", *LIBRARIES, *SERVER_LIBRARIES):
+        try:
+            versions[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            versions[name] = None
+    return versions
+
+
+def _origin(package: str) -> str | None:
+    """The folder a package loads from."""
+    from importlib.util import find_spec
+
+    spec = find_spec(package)
+    places = list(spec.submodule_search_locations or []) if spec is not None else []
+    return places[0] if places else None
+
+
+def _database(url: str) -> dict[str, Any]:
+    """Whether the database's file is there, or could be made."""
+    import os
+    from pathlib import Path
+
+    if not url.startswith("sqlite:///"):
+        return {"url": url, "exists": None, "usable": None}
+    path = Path(url.removeprefix("sqlite:///"))
+    writable = os.access(path if path.exists() else path.absolute().parent, os.W_OK)
+    return {"url": url, "exists": path.exists(), "usable": writable}
+
+
+def _port(port: int) -> dict[str, Any]:
+    """Whether a server could listen on the port."""
+    import socket
+
+    try:
+        with socket.create_server(("127.0.0.1", port)):
+            return {"port": port, "free": True}
+    except OSError:
+        return {"port": port, "free": False}
+
+
+def _self_test() -> dict[str, Any]:
+    """Simulate a break and digest its outcome: equal digests on two machines mean equal physics, bit for
+    bit.
+    """
+    import hashlib
+    import time
+
+    from physics import Shot, Table, min_elevation, rack
+    from physics import simulate as run
+
+    table = Table.olympiad()
+    state = rack(table, "eight_ball", seed=7)
+    shot = Shot(9.0, 270.0, min_elevation(table, state, 270.0))
+    started = time.perf_counter()
+    result = run(table, state, shot)
+    seconds = time.perf_counter() - started
+    again = run(table, state, shot, trace=False)
+    digest = hashlib.sha256(result.final.positions.tobytes()).hexdigest()
+    return {
+        "ok": again.final == result.final and result.n_events > 0,
+        "digest": digest,
+        "events": result.n_events,
+        "first_simulation_seconds": round(seconds, 3),
+    }
+
+
+def _faults(report: dict[str, Any]) -> list[str]:
+    """What does not work, in words."""
+    faults = [f"{name} is not installed" for name in LIBRARIES if report["versions"][name] is None]
+    faults += [f"package {name} is not found" for name in PACKAGES if report["packages"][name] is None]
+    if not report["self_test"]["ok"]:
+        faults.append("the physics gives two answers to the same shot")
+    if report["database"]["usable"] is False:
+        faults.append(f"the database {report['database']['url']} cannot be written")
+    return faults
+
+
+def _tell(report: dict[str, Any]) -> None:
+    """The report, for people."""
+    from rich.console import Console
+    from rich.table import Table
+
+    grid = Table(show_header=False, box=None, pad_edge=False)
+    for section, values in report.items():
+        for name, value in values.items():
+            grid.add_row(section.replace("_", " "), name.replace("_", " "), _shown(value))
+            section = ""
+    Console(soft_wrap=True, highlight=False).print(grid)
+
+
+def _shown(value: Any) -> str:
+    """A value in a word."""
+    return (
+        {None: "missing", True: "yes", False: "no"}.get(value, str(value))
+        if not isinstance(value, dict)
+        else ""
+    )

@@ -1,0 +1,110 @@
+"""Child processes that never outlive the command that started them.
+
+They end with the `with` block; when the command is told to terminate, the block is left in order. On Linux
+the kernel also ends them if the command is killed outright.
+"""
+
+import contextlib
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from types import FrameType
+
+PATIENCE = 10.0
+"""Seconds a child gets to leave after SIGTERM before it is killed; a server closes its database in far
+less.
+"""
+PR_SET_PDEATHSIG = 1
+"""Linux prctl: the signal to receive when the parent dies."""
+
+
+class Child:
+    """A process with its standard error, and its output, in a file."""
+
+    def __init__(self, name: str, command: Sequence[str], log: Path, environment: Mapping[str, str]) -> None:
+        self.name = name
+        self.log = log
+        with log.open("wb") as sink:
+            self._process = subprocess.Popen(
+                list(command),
+                stdin=subprocess.DEVNULL,
+                stdout=sink,
+                stderr=subprocess.STDOUT,
+                env=os.environ | environment,
+                preexec_fn=_die_with_parent(),
+            )
+
+    @property
+    def exit_code(self) -> int | None:
+        """The exit code, or None while it runs."""
+        return self._process.poll()
+
+    def wait(self, seconds: float) -> int | None:
+        """Wait for its end; the exit code, or None when it still runs."""
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(seconds)
+        return self.exit_code
+
+    def stop(self) -> None:
+        """End it: SIGTERM, and SIGKILL if that is not enough."""
+        if self.exit_code is None:
+            self._process.terminate()
+            if self.wait(PATIENCE) is None:
+                self._process.kill()
+                self._process.wait()
+
+    def last_words(self, lines: int = 15) -> str:
+        """The end of what it wrote, for an error message."""
+        written = self.log.read_text(errors="replace").splitlines()
+        return (
+            "\n".join(f"  {self.name}: {line}" for line in written[-lines:]) or f"  {self.name} wrote nothing"
+        )
+
+
+@contextlib.contextmanager
+def children() -> Iterator[list[Child]]:
+    """A list of children to add to; all of them are stopped when the block is left, the last first."""
+    started: list[Child] = []
+    with _termination_as_exception():
+        try:
+            yield started
+        finally:
+            for child in reversed(started):
+                child.stop()
+
+
+@contextlib.contextmanager
+def _termination_as_exception() -> Iterator[None]:
+    """Leave the block by SystemExit on SIGTERM and SIGHUP, where nobody else decided about them (nohup
+    does).
+    """
+
+    def leave(number: int, _frame: FrameType | None) -> None:
+        raise SystemExit(128 + number)
+
+    ours = [each for each in (signal.SIGTERM, signal.SIGHUP) if signal.getsignal(each) == signal.SIG_DFL]
+    for each in ours:
+        signal.signal(each, leave)
+    try:
+        yield
+    finally:
+        for each in ours:
+            signal.signal(each, signal.SIG_DFL)
+
+
+def _die_with_parent() -> Callable[[], None] | None:
+    """What a child runs before its program so that it gets SIGTERM if this process is killed; None without
+    Linux.
+    """
+    if sys.platform != "linux":
+        return None
+    prctl = ctypes.CDLL(None, use_errno=True).prctl
+
+    def ask() -> None:
+        prctl(PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
+
+    return ask

@@ -1,0 +1,129 @@
+"""`pooliad replay`: look at the record of a game, and verify it."""
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from client.cli.output import FAILED, USAGE, Json, emit, fail, say
+
+if TYPE_CHECKING:
+    from referee.record import Record, Verification
+
+File = Annotated[Path, typer.Argument(help="A record: JSON lines as the server and the demo write them.")]
+
+
+def commands() -> typer.Typer:
+    """The subcommands."""
+    app = typer.Typer(help="Show and verify records of games.", no_args_is_help=True)
+    app.command("show")(show)
+    app.command("verify")(verify)
+    return app
+
+
+def show(
+    file: File,
+    shot: Annotated[
+        int | None, typer.Option(min=1, help="One stroke with its events, by the number the list shows.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Print a game, a sentence a stroke; or one stroke with everything that happened in it."""
+    record = _read(file)
+    if shot is not None:
+        _show_stroke(record, shot, as_json)
+    elif as_json:
+        emit({"header": record.header, "strokes": record.entries, "end": record.end})
+    else:
+        _tell_game(record)
+
+
+def verify(file: File, as_json: Json = False) -> None:
+    """Play a record again from its seeds and actions, and compare every bit.
+
+    Leaves with 1 and names the first difference when the record is not what really follows.
+    """
+    from referee.record import verify_record
+
+    try:
+        found = verify_record(file)
+    except (OSError, UnicodeDecodeError) as error:
+        fail(f"{file} cannot be read: {error}", USAGE)
+    if as_json:
+        emit(_verification(file, found))
+    else:
+        say(f"{file}: {found}")
+    if not found.ok:
+        raise typer.Exit(FAILED)
+
+
+def _verification(file: Path, found: "Verification") -> dict[str, Any]:
+    """What was found, as JSON."""
+    return {
+        "record": str(file),
+        "ok": found.ok,
+        "verdict": found.verdict.value,
+        "strokes": found.strokes,
+        "outcome": None if found.outcome is None else found.outcome.to_dict(),
+        "difference": None if found.difference is None else asdict(found.difference),
+        "words": str(found),
+    }
+
+
+def _read(file: Path) -> "Record":
+    """The record in a file; leaves the command when it is none."""
+    from referee.record import InvalidRecord, read_record
+
+    try:
+        return read_record(file)
+    except InvalidRecord as error:
+        fail(f"{file} is no record of a game: {error}")
+    except (OSError, UnicodeDecodeError) as error:
+        fail(f"{file} cannot be read: {error}", USAGE)
+
+
+def _tell_game(record: "Record") -> None:
+    """The whole game, for people."""
+    from client.cli.sentences import sentence
+    from referee import Action
+
+    header, end = record.header, record.end
+    say(f"{header['players'][0]} against {header['players'][1]}, noise {header['noise']['level']:g}")
+    for entry in record.entries:
+        action, ruling = Action.from_dict(entry["action"]), entry["ruling"]
+        player = header["players"][entry["seat"]]
+        say(sentence(entry["stroke"], player, action, ruling["words"], ruling["rules"]))
+    winner = end["outcome"]["winner"]
+    name = "nobody" if winner is None else header["players"][winner]
+    say(f"{name} wins: {end['outcome']['reason']} ({end['outcome']['rule']})")
+
+
+def _show_stroke(record: "Record", number: int, as_json: bool) -> None:
+    """One stroke in full."""
+    entry = next((each for each in record.entries if each["stroke"] == number - 1), None)
+    if entry is None:
+        strokes = sum(each["stroke"] is not None for each in record.entries)
+        fail(f"--shot is {number}; this game has strokes 1 to {strokes}", USAGE)
+    if as_json:
+        emit(entry)
+    else:
+        _tell_stroke(entry, record.header["players"][entry["seat"]])
+
+
+def _tell_stroke(entry: dict[str, Any], player: str) -> None:
+    """One stroke in full, for people."""
+    from client import notation
+    from client.cli.sentences import sentence
+    from physics import TableState
+    from referee import Action
+
+    action, ruling = Action.from_dict(entry["action"]), entry["ruling"]
+    say(sentence(entry["stroke"], player, action, ruling["words"], ruling["rules"]))
+    say(f"from   {notation.write(TableState.from_dict(entry['before']))}")
+    for title, shot in (("meant", entry["action"]["shot"]), ("played", entry["shot"])):
+        say(f"{title:6s} " + "  ".join(f"{name} {value:.6g}" for name, value in shot.items()))
+    for event in entry["events"]:
+        partner = f" and {event['other']}" if event["other"] >= 0 else ""
+        say(f"{event['index']:4d}  {event['time']:.6f} s  {event['kind']} of {event['ball']}{partner}")
+    say(f"to     {notation.write(TableState.from_dict(entry['final']))}")

@@ -1,0 +1,37 @@
+"""`pooliad serve`: run the match server."""
+
+from importlib.util import find_spec
+from typing import Annotated
+
+import typer
+
+from client.cli.output import fail
+
+NEEDED = ("fastapi", "uvicorn", "sqlalchemy", "alembic")
+"""What the `server` extra brings."""
+
+
+def server_command(host: str, port: int, database: str) -> list[str]:
+    """The command line that runs the server as a program; exits with what to install when it cannot run."""
+    import sys
+
+    missing = [name for name in NEEDED if find_spec(name) is None]
+    if missing:
+        fail(f"the server needs {', '.join(missing)}; install it with: pip install 'pooliad[server]'")
+    return [sys.executable, "-m", "server", "--host", host, "--port", str(port), "--database", database]
+
+
+def serve(
+    host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
+    port: Annotated[
+        int, typer.Option(min=0, max=65535, help="Port to listen on; 0 picks a free one.")
+    ] = 8080,
+    database: Annotated[
+        str, typer.Option(envvar="POOLIAD_DATABASE", help="Where games are kept: sqlite:///path.")
+    ] = "sqlite:///pooliad.db",
+) -> None:
+    """Serve matches over HTTP until interrupted."""
+    import os
+
+    command = server_command(host, port, database)
+    os.execv(command[0], command)

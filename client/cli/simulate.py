@@ -1,0 +1,106 @@
+"""`pooliad simulate`: what one shot does."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from client.cli.output import USAGE, Json, emit, fail, say
+
+if TYPE_CHECKING:
+    from physics import Result, Shot, Table, TableState
+
+
+def simulate(
+    v: Annotated[float, typer.Option("--v", help="Cue speed, m/s.")],
+    phi: Annotated[float, typer.Option("--phi", help="Azimuth, deg, counter-clockwise from +x.")],
+    theta: Annotated[
+        float | None, typer.Option("--theta", help="Cue elevation, deg; the least possible unless given.")
+    ] = None,
+    a: Annotated[float, typer.Option("--a", help="Tip offset to the right, mm.")] = 0.0,
+    b: Annotated[float, typer.Option("--b", help="Tip offset upwards, mm.")] = 0.0,
+    balls: Annotated[
+        str | None,
+        typer.Option(help="Where the balls lie: 0:0.5,1.7 3:0.4,0.6 or JSON, or @FILE with either."),
+    ] = None,
+    rack: Annotated[
+        int | None, typer.Option(min=0, help="A fresh 8-ball rack from this seed instead.")
+    ] = None,
+    table: Annotated[str, typer.Option(help="olympiad, fastfiz, or JSON with parameters.")] = "olympiad",
+    as_json: Json = False,
+) -> None:
+    """Simulate one shot and print its events."""
+    from physics import InvalidShot, InvalidState, InvalidTable, Shot, check, min_elevation
+    from physics import simulate as run
+
+    try:
+        cloth = _table(table)
+        state = _state(cloth, balls, rack)
+        elevation = min_elevation(cloth, state, phi, a, b) if theta is None else theta
+        shot = Shot(v, phi, elevation, a, b)
+        unplayable = check(cloth, state, shot)
+    except (InvalidShot, InvalidState, InvalidTable) as error:
+        fail(str(error), USAGE)
+    if unplayable is not None:
+        fail(f"this shot cannot be played: {unplayable.reason}", USAGE)
+    result = run(cloth, state, shot)
+    if as_json:
+        emit(_value(shot, result))
+    else:
+        _tell(shot, result)
+
+
+def _table(text: str) -> "Table":
+    """The table named, or described in JSON."""
+    import json
+
+    from physics import Table
+
+    return Table.from_dict(json.loads(text) if text.lstrip().startswith("{") else {"name": text})
+
+
+def _state(table: "Table", balls: str | None, rack: int | None) -> "TableState":
+    """Where the balls lie at the start."""
+    from physics import rack as racked
+
+    if (balls is None) == (rack is None):
+        fail("give exactly one of --balls and --rack", USAGE)
+    return _read_balls(balls) if balls is not None else racked(table, "eight_ball", seed=rack or 0)
+
+
+def _read_balls(text: str) -> "TableState":
+    """A position from its notation or from JSON, given or in a file."""
+    import json
+    from pathlib import Path
+
+    from client import notation
+    from physics import TableState
+
+    if text.startswith("@"):
+        text = Path(text[1:]).read_text(encoding="utf-8")
+    try:
+        return (
+            TableState.from_dict(json.loads(text)) if text.lstrip().startswith("{") else notation.read(text)
+        )
+    except json.JSONDecodeError as error:
+        fail(f"--balls is not JSON: {error}", USAGE)
+
+
+def _value(shot: "Shot", result: "Result") -> dict[str, object]:
+    """Everything, as JSON."""
+    return {
+        "shot": shot.to_dict(),
+        "status": result.status.name.lower(),
+        "duration": result.duration,
+        "events": [event.to_dict() for event in result.events],
+        "final": result.final.to_dict(),
+    }
+
+
+def _tell(shot: "Shot", result: "Result") -> None:
+    """Everything, for people."""
+    from client import notation
+
+    say(f"v {shot.v:g} m/s  phi {shot.phi:g}  theta {shot.theta:.4g} deg  a {shot.a:g}  b {shot.b:g} mm")
+    for event in result.events:
+        say(str(event))
+    say(f"after {result.duration:.3f} s: {notation.write(result.final)}")

@@ -1,0 +1,123 @@
+"""Straight pots: one object ball, one pocket, the cue ball coming from where it lies.
+
+A pot is judged by what an error of the cue's direction does to it. An error of `e` radians moves the cue
+ball's place at contact by about `cue_distance * e`, which turns the object ball by that over `2 R
+cos(cut)`, and moves it at the pocket by `ball_distance` times that turn. `tolerance` is the error that just
+still fits the mouth.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from client.geometry.aim import Point, azimuth, cut_angle, distance, ghost_ball
+from client.geometry.paths import blockers
+from physics import Table, TableState
+
+STEEPEST_CUT = 85.0
+"""Degrees. Beyond this cut a contact hardly moves the object ball, and a tenth of a degree misses it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pot:
+    """One way to send one ball into one pocket.
+
+    `ghost` (m) is where the cue ball's centre has to arrive, `phi` (deg) the direction that brings it
+    there, `cut` (deg) the cut angle, `cue_distance` and `ball_distance` (m) the two straight paths,
+    `blockers` the balls in the way of either, `tolerance` (deg) the error of direction that just still fits
+    the pocket's mouth.
+    """
+
+    ball: int
+    pocket: int
+    ghost: Point
+    phi: float
+    cut: float
+    cue_distance: float
+    ball_distance: float
+    blockers: tuple[int, ...]
+    tolerance: float
+
+    @property
+    def is_open(self) -> bool:
+        """Whether nothing is in the way and the cut can be played."""
+        return not self.blockers and self.cut <= STEEPEST_CUT and self.tolerance > 0.0
+
+
+def pot(table: Table, state: TableState, ball: int, pocket: int) -> Pot:
+    """The straight pot of `ball` into `pocket` from where the cue ball lies, playable or not.
+
+    Raises `ValueError` when the cue ball or the ball is not on the table, or the ball is the cue ball.
+    """
+    cue_ball, place = _places(state, ball)
+    if not 0 <= pocket <= 5:
+        raise ValueError(f"pocket is {pocket}; pockets are 0 (SW) to 5 (SE)")
+    target = _mouth(table, pocket)
+    ghost = ghost_ball(place, target, table.ball_radius)
+    cut = cut_angle(cue_ball, place, target, table.ball_radius)
+    phi = azimuth(cue_ball, ghost) if ghost != cue_ball else azimuth(place, target)
+    reach = distance(cue_ball, ghost)
+    run = distance(place, target)
+    in_the_way = blockers(state, cue_ball, ghost, table.ball_radius, ignore=(0, ball)) + blockers(
+        state, place, target, table.ball_radius, ignore=(0, ball)
+    )
+    tolerance = _tolerance(table, pocket, place, cut, reach)
+    return Pot(ball, pocket, ghost, phi, cut, reach, run, in_the_way, tolerance)
+
+
+def pots(
+    table: Table, state: TableState, balls: Iterable[int], pockets: Iterable[int] = range(6)
+) -> list[Pot]:
+    """The open straight pots of `balls` into `pockets`, the most forgiving first."""
+    into = tuple(pockets)
+    found = [pot(table, state, ball, pocket) for ball in balls for pocket in into]
+    return sorted((each for each in found if each.is_open), key=lambda each: -each.tolerance)
+
+
+def _places(state: TableState, ball: int) -> tuple[Point, Point]:
+    """Where the cue ball and `ball` lie."""
+    if ball == 0:
+        raise ValueError("ball is 0, the cue ball; a pot needs an object ball, 1 to 15")
+    cue_ball, place = state.position(0), state.position(ball)
+    if cue_ball is None or place is None:
+        missing = 0 if cue_ball is None else ball
+        raise ValueError(f"ball {missing} is not on the table; on it are {state.balls}")
+    return cue_ball, place
+
+
+def _mouth(table: Table, pocket: int) -> Point:
+    """Middle of a pocket's mouth line for ball centres."""
+    x, y = table.mouths[pocket]
+    return float(x), float(y)
+
+
+def _tolerance(table: Table, pocket: int, place: Point, cut: float, reach: float) -> float:
+    """Error of the cue's direction in degrees that brings the ball to the edge of the mouth (module
+    docstring).
+    """
+    target = _mouth(table, pocket)
+    inward = _inward(table, pocket)
+    run = distance(place, target)
+    facing = abs((place[0] - target[0]) * inward[0] + (place[1] - target[1]) * inward[1]) / run
+    room = _half_mouth(table, pocket) * facing
+    slack = room * 2.0 * table.ball_radius * math.cos(math.radians(min(cut, 90.0)))
+    return math.degrees(math.atan2(slack, run * max(reach, table.ball_radius)))
+
+
+def _half_mouth(table: Table, pocket: int) -> float:
+    """Half the length of a mouth line for ball centres (m)."""
+    if _is_side(pocket):
+        return 0.5 * table.side_mouth
+    return (table.corner_reach - table.ball_radius) / math.sqrt(2.0)
+
+
+def _inward(table: Table, pocket: int) -> Point:
+    """Unit normal of a mouth line, towards the table."""
+    x, y = _mouth(table, pocket)
+    right, up = math.copysign(1.0, 0.5 * table.width - x), math.copysign(1.0, 0.5 * table.length - y)
+    return (right, 0.0) if _is_side(pocket) else (right / math.sqrt(2.0), up / math.sqrt(2.0))
+
+
+def _is_side(pocket: int) -> bool:
+    """Whether the pocket is W or E, in the middle of a long cushion."""
+    return pocket in (1, 4)

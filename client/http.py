@@ -1,0 +1,156 @@
+"""The synchronous client."""
+
+import time
+from types import TracebackType
+from typing import Self
+
+import httpx2
+
+from client import calls
+from client.calls import TurnMessage
+from client.exchange import Answer, Call, Outcome, Step, Wait, exchange
+from client.retry import Retry
+from physics import Shot, Table, TableState
+from referee import Action
+from referee.wire import (
+    AgentList,
+    AgentToken,
+    BatchAnswer,
+    GameAnswer,
+    MatchList,
+    MatchRequest,
+    MatchView,
+    MinElevationAnswer,
+    ShotsPage,
+    SimulateAnswer,
+    StrokeAnswer,
+)
+
+
+class Pooliad:
+    """A Pooliad server, seen by one agent, one organiser or one spectator.
+
+    Every method is one request; it returns the parsed answer or raises a `client.PooliadError`. Requests
+    that can be repeated safely are, with growing pauses (`client.Retry`).
+
+    Args:
+        url: the server's address, e.g. `http://127.0.0.1:8000`.
+        token: of an agent or an organiser; None for what is public.
+        retry: how patient to be.
+        transport: of `httpx2`, for tests and special networks.
+    """
+
+    def __init__(
+        self,
+        url: str,
+        token: str | None = None,
+        *,
+        retry: Retry | None = None,
+        transport: httpx2.BaseTransport | None = None,
+    ) -> None:
+        self._retry = retry or Retry()
+        self._http = httpx2.Client(base_url=url, headers=calls.authorization(token), transport=transport)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the connections."""
+        self._http.close()
+
+    def register(self, name: str) -> AgentToken:
+        """Register an agent; the answer holds its token, which is shown this once."""
+        return self._send(calls.register(name))
+
+    def agents(self, cursor: str | None = None) -> AgentList:
+        """One page of the registered agents."""
+        return self._send(calls.agents(cursor))
+
+    def rotate_token(self, agent: str) -> AgentToken:
+        """Replace an agent's token by a new one."""
+        return self._send(calls.rotate_token(agent))
+
+    def revoke_token(self, agent: str) -> None:
+        """Make an agent's token worthless."""
+        return self._send(calls.revoke_token(agent))
+
+    def create_match(self, request: MatchRequest) -> MatchView:
+        """Set up a match (organiser), or challenge the other agent (one of the two)."""
+        return self._send(calls.create_match(request))
+
+    def matches(self, cursor: str | None = None) -> MatchList:
+        """One page of the matches, the newest first."""
+        return self._send(calls.matches(cursor))
+
+    def match(self, match_id: str) -> MatchView:
+        """A match and how its games stand."""
+        return self._send(calls.match(match_id))
+
+    def accept(self, match_id: str) -> MatchView:
+        """Accept a challenge."""
+        return self._send(calls.accept(match_id))
+
+    def abort(self, match_id: str) -> MatchView:
+        """Stop a match."""
+        return self._send(calls.abort(match_id))
+
+    def turns(self, wait: float = 30.0) -> TurnMessage | None:
+        """Wait up to `wait` seconds for the caller's next message; None when there is none."""
+        return self._send(calls.turns(wait))
+
+    def play(self, game_id: str, version: int, action: Action) -> StrokeAnswer:
+        """Answer the view with this version: a stroke, a decision or a concession."""
+        return self._send(calls.play(game_id, version, action))
+
+    def game(self, game_id: str) -> GameAnswer:
+        """A game and the caller's view of it."""
+        return self._send(calls.game(game_id))
+
+    def shots(self, game_id: str, cursor: int | None = None) -> ShotsPage:
+        """One page of a game's strokes, from `cursor` on."""
+        return self._send(calls.shots(game_id, cursor))
+
+    def record(self, game_id: str) -> bytes:
+        """The record of a finished game: JSON lines that `pooliad replay verify` accepts."""
+        return self._send(calls.record(game_id))
+
+    def simulate(self, table: Table, state: TableState, shot: Shot, trace: bool = True) -> SimulateAnswer:
+        """One shot on the server's physics."""
+        return self._send(calls.simulate(table, state, shot, trace))
+
+    def simulate_batch(self, table: Table, state: TableState, shots: list[Shot]) -> BatchAnswer:
+        """Many shots from one position on the server's physics."""
+        return self._send(calls.simulate_batch(table, state, shots))
+
+    def min_elevation(
+        self, table: Table, state: TableState, phi: float, a: float = 0.0, b: float = 0.0
+    ) -> MinElevationAnswer:
+        """The least elevation (deg) at which the cue is free; None when there is none."""
+        return self._send(calls.min_elevation(table, state, phi, a, b))
+
+    def _send(self, call: Call[Answer]) -> Answer:
+        """Drive the exchange with a blocking connection."""
+        steps = exchange(call, self._retry)
+        outcome: Outcome = None
+        while True:
+            try:
+                step = steps.send(outcome)
+            except StopIteration as end:
+                answer: Answer = end.value
+                return answer
+            outcome = self._do(step)
+
+    def _do(self, step: Step) -> Outcome:
+        """Wait, or send a request."""
+        if isinstance(step, Wait):
+            time.sleep(step.seconds)
+            return None
+        try:
+            return self._http.request(step.method, step.path, **step.arguments())
+        except httpx2.TransportError as error:
+            return error

@@ -1,0 +1,108 @@
+"""Play over a server until the match is over."""
+
+import logging
+import time
+
+import httpx2
+from pydantic import ValidationError
+
+from client.agent import AgentFactory
+from client.errors import Conflict, StaleVersion, Unprocessable
+from client.http import Pooliad
+from client.players import Players
+from client.retry import Retry
+from referee.wire import GameOver, MatchOver, Turn, View
+
+log = logging.getLogger("pooliad.agent")
+
+POLL = 30.0
+"""Seconds that one long poll may wait for a turn."""
+FIRST_PAUSE, LONGEST_PAUSE = 0.05, 1.0
+"""Seconds between tries of an agent that fails at once: doubling, so that it neither floods the server nor
+its log.
+"""
+
+
+def run_agent(
+    agent: AgentFactory,
+    url: str,
+    token: str,
+    *,
+    retry: Retry | None = None,
+    transport: httpx2.BaseTransport | None = None,
+) -> MatchOver:
+    """Play every turn the server offers until a match is over, and return how it ended.
+
+    Args:
+        agent: an `Agent` class, or a function that makes an instance; called once for each game.
+        url: the server's address. token: the agent's.
+        retry, transport: as for `client.Pooliad`.
+
+    Raises:
+        client.PooliadError: the token is not accepted, or the server stays away for longer than `retry`
+        waits.
+    """
+    with Pooliad(url, token, retry=retry, transport=transport) as server:
+        return _Run(server, Players(agent)).until_over()
+
+
+class _Run:
+    """One agent at one server."""
+
+    def __init__(self, server: Pooliad, players: Players) -> None:
+        self._server = server
+        self._players = players
+        self._last: View | None = None
+        self._failures = 0
+
+    def until_over(self) -> MatchOver:
+        """Answer messages until the one that says the match is over."""
+        while True:
+            match self._server.turns(POLL):
+                case Turn(view=view):
+                    self._play(view)
+                case GameOver() as over:
+                    self._players.game_over(over)
+                case MatchOver() as over:
+                    return over
+                case None:
+                    if (missed := self._missed_end()) is not None:
+                        return missed
+
+    def _play(self, view: View) -> None:
+        """Act while it is this agent's turn; after a failed try the turn is read again."""
+        following: View | None = view
+        while following is not None and following.my_turn:
+            self._last = following
+            following = self._answer(following)
+        self._pace(failed=following is None)
+
+    def _answer(self, view: View) -> View | None:
+        """Let the agent act on the view: the view that follows, or None when the game did not move on."""
+        action = self._players.choose(view)
+        if action is None:
+            return None
+        try:
+            return self._server.play(view.game, view.version, action).view
+        except (Unprocessable, ValidationError) as error:
+            self._players.refused(view, error)
+        except (StaleVersion, Conflict) as error:
+            log.warning("game %s, version %d: %s; the turn is read again", view.game, view.version, error)
+        return None
+
+    def _pace(self, failed: bool) -> None:
+        """Pause after a failed try, longer after each."""
+        self._failures = self._failures + 1 if failed else 0
+        if self._failures:
+            time.sleep(min(LONGEST_PAUSE, FIRST_PAUSE * 2.0 ** min(self._failures - 1, 10)))
+
+    def _missed_end(self) -> MatchOver | None:
+        """The end of the match, when the message that told it was lost on its way."""
+        if self._last is None or self._last.seat is None:
+            return None
+        match = self._server.match(self._last.match)
+        if match.status not in ("finished", "aborted"):
+            return None
+        return MatchOver(
+            match=match.id, seat=self._last.seat, status=match.status, winner=match.winner, score=match.score
+        )
