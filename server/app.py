@@ -1,0 +1,61 @@
+"""The composition root: the only place where the server's parts are put together."""
+
+from collections.abc import AsyncIterator, Callable
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
+from functools import partial
+from importlib.metadata import version
+
+from fastapi import FastAPI
+from starlette.exceptions import HTTPException
+
+from server import openapi
+from server.errors import ServerError, handle_fault, handle_framework_error, handle_server_error
+from server.routes import ROUTERS
+from server.security.body_gate import BodyGate
+from server.services.context import Context
+from server.services.timer import Timer
+from server.settings import Settings
+from server.store.database import Database
+from server.store.upgrade import upgrade
+
+DESCRIPTION = """Matches between pool-playing programs under a referee. Units: metres, seconds, degrees;
+millimetres
+for the tip offset. Every state-changing request but registration carries an `Idempotency-Key`; sent again it
+gets the stored answer. Errors are RFC 9457 problem details with a stable `code`."""
+
+
+def create_app(settings: Settings) -> FastAPI:
+    """The server as an ASGI application; its database is opened and brought up to date when it starts."""
+    context = Context(settings, Database(settings.database))
+    app = FastAPI(
+        title="Pooliad",
+        version=version("pooliad"),
+        description=DESCRIPTION,
+        lifespan=_lifespan(context),
+        docs_url=None,
+        redoc_url=None,
+        exception_handlers={
+            ServerError: handle_server_error,
+            HTTPException: handle_framework_error,
+            Exception: handle_fault,
+        },
+    )
+    app.state.context = context
+    app.openapi = partial(openapi.document, app)  # type: ignore[method-assign]
+    app.add_middleware(BodyGate, limit=settings.body_limit, seconds=settings.body_seconds, time=context.time)
+    for router in ROUTERS:
+        app.include_router(router)
+    return app
+
+
+def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManager[None]]:
+    @asynccontextmanager
+    async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        upgrade(context.database)
+        context.wakeups.start()
+        async with Timer(context).running():
+            yield
+        context.wakeups.drain()
+        context.database.dispose()
+
+    return lifespan

@@ -1,0 +1,261 @@
+"""Why a request is not carried out: one class per problem, its HTTP status on it, one handler for all.
+
+::
+
+    SettingsError                   the server cannot start
+    ServerError
+    ├── NotJson                 400
+    ├── BadHeader               400
+    ├── Unauthorized            401
+    ├── Forbidden               403
+    ├── NotFound                404
+    ├── MethodNotAllowed        405
+    ├── SlowBody                408
+    ├── GameFinished            409
+    ├── GameUnfinished          409
+    ├── NotYourTurn             409
+    ├── OutOfTime               409
+    ├── WrongStatus             409
+    ├── NameTaken               409
+    ├── StaleVersion            412  carries the current view
+    ├── TooLarge                413
+    ├── UnsupportedMediaType    415
+    ├── Invalid                 422  a field of the request
+    ├── Refused                 422  by the referee
+    ├── KeyReused               422
+    ├── VersionRequired         428
+    ├── Internal                500  a fault of ours
+    └── Draining                503
+"""
+
+import logging
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+from pydantic import ValidationError
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import Response
+
+from referee.wire import PROBLEM_JSON, Fault, Problem, ProblemCode, shown
+
+log = logging.getLogger("pooliad.server")
+
+
+class SettingsError(ValueError):
+    """A setting the server cannot run with; the message names it, its value and what is allowed."""
+
+
+class ServerError(Exception):
+    """A request that is not carried out.
+
+    `extensions` are further members of the problem (field, value, view, …).
+    """
+
+    status: ClassVar[int]
+    code: ClassVar[ProblemCode]
+    headers: ClassVar[Mapping[str, str]] = {}
+
+    def __init__(self, detail: str, **extensions: Any) -> None:
+        super().__init__(detail)
+        self.detail = detail
+        self.extensions = extensions
+
+    def problem(self, instance: str) -> Problem:
+        """The problem as it goes on the wire, about the address `instance`."""
+        return Problem.of(self.code, self.status, self.detail, instance=instance, **self.extensions)
+
+
+class NotJson(ServerError):
+    """The body cannot be read as JSON."""
+
+    status, code = 400, ProblemCode.NOT_JSON
+
+
+class BadHeader(ServerError):
+    """A header is malformed, or one that is needed is missing."""
+
+    status, code = 400, ProblemCode.BAD_HEADER
+
+
+class Unauthorized(ServerError):
+    """No token, or none that is valid."""
+
+    status, code = 401, ProblemCode.UNAUTHORIZED
+    headers: ClassVar[Mapping[str, str]] = {"www-authenticate": 'Bearer realm="pooliad"'}
+
+
+class Forbidden(ServerError):
+    """A valid token, but not for this."""
+
+    status, code = 403, ProblemCode.FORBIDDEN
+
+
+class NotFound(ServerError):
+    """There is no such thing."""
+
+    status, code = 404, ProblemCode.NOT_FOUND
+
+
+class MethodNotAllowed(ServerError):
+    """The address exists, but not for this method."""
+
+    status, code = 405, ProblemCode.METHOD_NOT_ALLOWED
+
+
+class SlowBody(ServerError):
+    """The body did not arrive in time; the rest of it is not waited for."""
+
+    status, code = 408, ProblemCode.SLOW_BODY
+    headers: ClassVar[Mapping[str, str]] = {"connection": "close"}
+
+
+class GameFinished(ServerError):
+    """The game is over."""
+
+    status, code = 409, ProblemCode.GAME_FINISHED
+
+
+class GameUnfinished(ServerError):
+    """The game is still on."""
+
+    status, code = 409, ProblemCode.GAME_UNFINISHED
+
+
+class NotYourTurn(ServerError):
+    """It is the other player's turn."""
+
+    status, code = 409, ProblemCode.NOT_YOUR_TURN
+
+
+class OutOfTime(ServerError):
+    """The mover's clock had run out when the request was complete."""
+
+    status, code = 409, ProblemCode.OUT_OF_TIME
+
+
+class WrongStatus(ServerError):
+    """The match is not in a state that allows this."""
+
+    status, code = 409, ProblemCode.WRONG_STATUS
+
+
+class NameTaken(ServerError):
+    """Another agent has this name."""
+
+    status, code = 409, ProblemCode.NAME_TAKEN
+
+
+class StaleVersion(ServerError):
+    """The request answers an older view than the current one."""
+
+    status, code = 412, ProblemCode.STALE_VERSION
+
+
+class TooLarge(ServerError):
+    """The body is larger than the server takes."""
+
+    status, code = 413, ProblemCode.TOO_LARGE
+
+
+class UnsupportedMediaType(ServerError):
+    """The body does not say that it is JSON."""
+
+    status, code = 415, ProblemCode.UNSUPPORTED_MEDIA_TYPE
+
+
+class Invalid(ServerError):
+    """Fields that are missing, unknown, of the wrong type or out of range.
+
+    Lists every fault, the first on top.
+    """
+
+    status, code = 422, ProblemCode.INVALID
+
+    def __init__(self, faults: Sequence[Fault]) -> None:
+        first = faults[0]
+        super().__init__(
+            first.detail, errors=tuple(faults), field=first.field, value=first.value, allowed=first.allowed
+        )
+
+
+class Refused(Invalid):
+    """The referee does not allow this stroke or decision; nothing happened and the clock runs on."""
+
+    status, code = 422, ProblemCode.REFUSED
+
+
+class KeyReused(ServerError):
+    """The Idempotency-Key came before, with another body."""
+
+    status, code = 422, ProblemCode.KEY_REUSED
+
+
+class VersionRequired(ServerError):
+    """The request does not say which version of the game it answers."""
+
+    status, code = 428, ProblemCode.VERSION_REQUIRED
+
+
+class Internal(ServerError):
+    """A fault of the server; the log has the traceback."""
+
+    status, code = 500, ProblemCode.INTERNAL
+
+
+class Draining(ServerError):
+    """The server is shutting down."""
+
+    status, code = 503, ProblemCode.DRAINING
+    headers: ClassVar[Mapping[str, str]] = {"retry-after": "1"}
+
+
+def invalid_field(field: str, value: object, allowed: str) -> Invalid:
+    """The error for one field found wrong by hand."""
+    detail = f"{field} is {shown(value)!r}; allowed: {allowed}"
+    return Invalid([Fault(code="value", field=field, value=shown(value), allowed=allowed, detail=detail)])
+
+
+def invalid_fields(error: ValidationError) -> Invalid:
+    """pydantic's findings as ours, one fault each."""
+    return Invalid([_fault(dict(found)) for found in error.errors(include_url=False)])
+
+
+def _fault(found: Mapping[str, Any]) -> Fault:
+    field = ".".join(str(part) for part in found["loc"] if not str(part).startswith("function-"))
+    missing = found["type"] == "missing"
+    cause = found.get("ctx", {}).get("error")
+    allowed = getattr(cause, "allowed", None) or found["msg"]
+    return Fault(
+        code=found["type"],
+        field=getattr(cause, "field", None) if cause is not None and not field else field or None,
+        value=None if missing else shown(getattr(cause, "value", found["input"])),
+        allowed=allowed,
+        detail=f"{field or 'the body'}: {found['msg']}",
+    )
+
+
+def render(error: ServerError, instance: str) -> Response:
+    """The one place where an error becomes a response."""
+    body = error.problem(instance).model_dump_json(exclude_none=True, exclude_defaults=True)
+    return Response(body, error.status, headers=dict(error.headers), media_type=PROBLEM_JSON)
+
+
+async def handle_server_error(request: Request, error: Exception) -> Response:
+    """Exception handler for our own errors."""
+    assert isinstance(error, ServerError)
+    return render(error, request.url.path)
+
+
+async def handle_framework_error(request: Request, error: Exception) -> Response:
+    """Exception handler for the framework's own 404 and 405."""
+    assert isinstance(error, HTTPException)
+    if error.status_code == 405:
+        return render(MethodNotAllowed(f"{request.method} is not allowed here"), request.url.path)
+    return render(NotFound(f"there is nothing at {request.url.path}"), request.url.path)
+
+
+async def handle_fault(request: Request, error: Exception) -> Response:
+    """Exception handler for what should never happen."""
+    log.error("fault while answering %s %s", request.method, request.url.path, exc_info=error)
+    return render(Internal("the server has a fault; it was logged"), request.url.path)

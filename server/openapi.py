@@ -1,0 +1,67 @@
+"""The OpenAPI document: the framework's, with the message types that the framework does not see."""
+
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+from pydantic import BaseModel
+from pydantic.json_schema import models_json_schema
+
+from referee.wire import (
+    AgentRequest,
+    BatchRequest,
+    DecisionRequest,
+    MatchRequest,
+    MinElevationRequest,
+    Problem,
+    ShotRequest,
+    SimulateRequest,
+)
+from server.routes.describe import TOKEN_SCHEME
+
+REFERENCE = "#/components/schemas/{model}"
+REQUESTS: tuple[type[BaseModel], ...] = (
+    AgentRequest,
+    BatchRequest,
+    DecisionRequest,
+    MatchRequest,
+    MinElevationRequest,
+    ShotRequest,
+    SimulateRequest,
+)
+
+
+def document(app: FastAPI) -> dict[str, Any]:
+    """The document of an app, made once and kept on it."""
+    if app.openapi_schema is None:
+        app.openapi_schema = _document(app)
+    return app.openapi_schema
+
+
+def _document(app: FastAPI) -> dict[str, Any]:
+    made = get_openapi(
+        title=app.title,
+        version=app.version,
+        description=app.description,
+        routes=app.routes,
+        tags=app.openapi_tags,
+    )
+    components = made.setdefault("components", {})
+    schemas: dict[str, Any] = components.setdefault("schemas", {})
+    for name in ("HTTPValidationError", "ValidationError"):
+        schemas.pop(name, None)
+    _, requests = models_json_schema([(model, "validation") for model in REQUESTS], ref_template=REFERENCE)
+    _, problem = models_json_schema([(Problem, "serialization")], ref_template=REFERENCE)
+    schemas |= problem["$defs"] | schemas | requests["$defs"]
+    components["securitySchemes"] = {TOKEN_SCHEME: {"type": "http", "scheme": "bearer"}}
+    for operations in made["paths"].values():
+        for operation in operations.values():
+            _drop_framework_errors(operation["responses"])
+    return made
+
+
+def _drop_framework_errors(responses: dict[str, Any]) -> None:
+    """Take out the framework's own 422, which our handlers never answer with."""
+    described = str(responses.get("422", ""))
+    if "HTTPValidationError" in described:
+        del responses["422"]

@@ -1,0 +1,16 @@
+"""The HTTP surface: thin endpoints that call services."""
+
+from typing import Final
+
+from fastapi import APIRouter
+
+from server.routes import agents, games, health, matches, physics, turns
+
+ROUTERS: Final[tuple[APIRouter, ...]] = (
+    agents.router,
+    matches.router,
+    turns.router,
+    games.router,
+    physics.router,
+    health.router,
+)

@@ -1,0 +1,114 @@
+"""What endpoints are given: the context, the caller, the command, the page."""
+
+from collections.abc import AsyncIterator
+from typing import Annotated
+
+from fastapi import Depends, Header, Query, Request, Response
+
+from server.security.callers import Caller, identify
+from server.security.tokens import bearer
+from server.services import pages
+from server.services.commands import Answer, Command
+from server.services.context import Context
+
+
+def context_of(request: Request) -> Context:
+    """The server's parts."""
+    context: Context = request.app.state.context
+    return context
+
+
+Server = Annotated[Context, Depends(context_of)]
+
+
+def _token(authorization: Annotated[str | None, Header(include_in_schema=False)] = None) -> str | None:
+    return bearer(authorization)
+
+
+Token = Annotated[str | None, Depends(_token)]
+
+
+def _caller(context: Server, token: Token) -> Caller:
+    with context.database.reading() as connection:
+        return identify(connection, token, context.settings.organiser_digest)
+
+
+def _reader(context: Server, token: Token) -> Caller | None:
+    return None if token is None else _caller(context, token)
+
+
+Authenticated = Annotated[Caller, Depends(_caller)]
+"""Somebody with a valid token; 401 for anybody else."""
+Reader = Annotated[Caller | None, Depends(_reader)]
+"""Whoever reads something public; a token, when one is sent, must be valid all the same."""
+
+
+def _body(request: Request) -> bytes:
+    body: bytes = request.state.body
+    return body
+
+
+Body = Annotated[bytes, Depends(_body)]
+ContentType = Annotated[str | None, Header(include_in_schema=False)]
+
+
+def _command(
+    request: Request,
+    caller: Authenticated,
+    body: Body,
+    idempotency_key: Annotated[str | None, Header(include_in_schema=False)] = None,
+    if_match: Annotated[str | None, Header(include_in_schema=False)] = None,
+    content_type: ContentType = None,
+) -> Command:
+    return Command(
+        caller=caller,
+        route=request.url.path,
+        key=idempotency_key,
+        if_match=if_match,
+        content_type=content_type,
+        body=body,
+        arrived=request.state.arrived,
+    )
+
+
+Sent = Annotated[Command, Depends(_command)]
+"""A state-changing request."""
+
+
+async def _in_hand(game_id: str, request: Request) -> AsyncIterator[None]:
+    """Tell the timer that a complete request of this game is being worked on.
+
+    Runs on the loop, before any queueing.
+    """
+    in_hand, arrived = context_of(request).in_hand, request.state.arrived
+    in_hand[game_id].append(arrived)
+    try:
+        yield
+    finally:
+        in_hand[game_id].remove(arrived)
+        if not in_hand[game_id]:
+            del in_hand[game_id]
+
+
+InHand = Depends(_in_hand)
+
+
+def _cursor(
+    cursor: Annotated[str | None, Query(description="`next_cursor` of the page before")] = None,
+) -> int:
+    return pages.cursor(cursor)
+
+
+def _limit(
+    limit: Annotated[str | None, Query(description="rows a page, 1 to 200; 50 unless told")] = None,
+) -> int:
+    return pages.limit(limit)
+
+
+Cursor = Annotated[int, Depends(_cursor)]
+Limit = Annotated[int, Depends(_limit)]
+
+
+def respond(answer: Answer) -> Response:
+    """An answer as an HTTP response, its bytes as they are."""
+    return Response(answer.body, answer.status, headers=dict(answer.headers), media_type="application/json")

@@ -1,0 +1,120 @@
+"""What `/openapi.json` says about an operation beyond what the framework reads off a function's signature.
+
+Bodies are not the framework's to read: token, ownership, repetition and version come before a body's content.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel
+
+from referee.wire import PROBLEM_JSON
+from server.errors import (
+    BadHeader,
+    Forbidden,
+    Internal,
+    Invalid,
+    KeyReused,
+    NotFound,
+    NotJson,
+    ServerError,
+    SlowBody,
+    TooLarge,
+    Unauthorized,
+    UnsupportedMediaType,
+)
+
+TOKEN_SCHEME = "token"
+BODY_PROBLEMS = (NotJson, SlowBody, TooLarge, UnsupportedMediaType, Invalid)
+KEY_PROBLEMS = (BadHeader, KeyReused)
+OWNED = (Forbidden, NotFound)
+
+Described = dict[str, Any]
+
+
+def describe(
+    *problems: type[ServerError],
+    body: type[BaseModel] | None = None,
+    success: Mapping[int, Any] | None = None,
+    token: bool = True,
+    key: bool = False,
+    version: bool = False,
+) -> Described:
+    """Keyword arguments for a route.
+
+    Args:
+        problems: the errors it may answer with, beside those that the other arguments imply.
+        body: the message it takes.
+        success: the message it answers with, or the media type of what is none, by status; None leaves it to
+            the
+            framework.
+        token: whether it takes one; key: an Idempotency-Key; version: If-Match.
+    """
+    implied: list[type[ServerError]] = [Unauthorized] if token else []
+    implied += [*BODY_PROBLEMS] if body else []
+    implied += [SlowBody, TooLarge, *KEY_PROBLEMS] if key else []
+    extra: dict[str, Any] = {"security": [{TOKEN_SCHEME: []}] if token else []}
+    if body:
+        extra["requestBody"] = _request_body(body)
+    if headers := _headers(key, version):
+        extra["parameters"] = headers
+    responses = {status: _success(answer) for status, answer in (success or {}).items()}
+    described: Described = {
+        "openapi_extra": extra,
+        "responses": responses | _problems(*problems, *implied, Internal),
+    }
+    if success:
+        described |= {"status_code": min(success), "response_model": None}
+    return described
+
+
+def _request_body(body: type[BaseModel]) -> dict[str, Any]:
+    examples = body.model_json_schema().get("examples", [])
+    content = {
+        "schema": {"$ref": f"#/components/schemas/{body.__name__}"},
+        "examples": {f"example_{number}": {"value": value} for number, value in enumerate(examples, 1)},
+    }
+    return {"required": True, "content": {"application/json": content}}
+
+
+def _success(answer: Any) -> dict[str, Any]:
+    if isinstance(answer, str):
+        return {
+            "description": "Success",
+            "content": {answer: {"schema": {"type": "string"}}} if answer else {},
+        }
+    return {"description": "Success", "model": answer}
+
+
+def _problems(*errors: type[ServerError]) -> dict[int | str, dict[str, Any]]:
+    codes: dict[int, list[str]] = {}
+    for error in errors:
+        known = codes.setdefault(error.status, [])
+        known += [error.code] if error.code not in known else []
+    content = {PROBLEM_JSON: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+    return {
+        status: {"description": "Problem: " + ", ".join(names), "content": content}
+        for status, names in sorted(codes.items())
+    }
+
+
+def _headers(key: bool, version: bool) -> list[dict[str, Any]]:
+    headers = []
+    if key:
+        headers.append(
+            _header("Idempotency-Key", "6a1f0c52-7f0e-4d43-9c1b-5b2f3f0f7f11", "a name of the request's own")
+        )
+    if version:
+        headers.append(_header("If-Match", '"1"', "the version of the view that the request answers"))
+    return headers
+
+
+def _header(name: str, example: str, description: str) -> dict[str, Any]:
+    return {
+        "name": name,
+        "in": "header",
+        "required": True,
+        "description": description,
+        "schema": {"type": "string"},
+        "example": example,
+    }

@@ -1,0 +1,83 @@
+"""Games: how they stand, the players' actions, the history and the record."""
+
+from fastapi import APIRouter, Response
+
+from referee.wire import DecisionRequest, GameAnswer, ShotRequest, ShotsPage, StrokeAnswer
+from server.errors import (
+    GameFinished,
+    GameUnfinished,
+    Invalid,
+    NotFound,
+    NotYourTurn,
+    OutOfTime,
+    Refused,
+    StaleVersion,
+    VersionRequired,
+)
+from server.routes.dependencies import Cursor, InHand, Limit, Reader, Sent, Server, respond
+from server.routes.describe import OWNED, describe
+from server.services import history, strokes
+
+router = APIRouter(prefix="/v1/games/{game_id}", tags=["games"])
+
+ACTION_PROBLEMS = (*OWNED, VersionRequired, GameFinished, StaleVersion, NotYourTurn, OutOfTime)
+RECORD_TYPE = "application/x-ndjson"
+
+
+@router.get("", **describe(NotFound, success={200: GameAnswer}, token=False), summary="How a game stands")
+def game(game_id: str, context: Server, reader: Reader) -> Response:
+    """As a spectator sees it, or as the caller does who plays in it. `ETag` is the version."""
+    return respond(history.game(context, game_id, reader))
+
+
+@router.post(
+    "/shots",
+    **describe(
+        *ACTION_PROBLEMS, Refused, body=ShotRequest, success={200: StrokeAnswer}, key=True, version=True
+    ),
+    dependencies=[InHand],
+    summary="Play a stroke",
+)
+def shoot(game_id: str, context: Server, command: Sent) -> Response:
+    """The shot as played (with noise), its events, the ruling and the next view."""
+    return respond(strokes.shoot(context, game_id, command))
+
+
+@router.post(
+    "/decisions",
+    **describe(
+        *ACTION_PROBLEMS, Refused, body=DecisionRequest, success={200: StrokeAnswer}, key=True, version=True
+    ),
+    dependencies=[InHand],
+    summary="Choose after a break",
+)
+def decide(game_id: str, context: Server, command: Sent) -> Response:
+    """One of the choices that the view allows."""
+    return respond(strokes.decide(context, game_id, command))
+
+
+@router.post(
+    "/concede",
+    **describe(*ACTION_PROBLEMS, success={200: StrokeAnswer}, key=True, version=True),
+    dependencies=[InHand],
+    summary="Give the game up",
+)
+def concede(game_id: str, context: Server, command: Sent) -> Response:
+    """In turn. The request has no body."""
+    return respond(strokes.concede(context, game_id, command))
+
+
+@router.get("/shots", **describe(NotFound, Invalid, token=False), summary="The strokes of a game, in pages")
+def shots(game_id: str, context: Server, cursor: Cursor, limit: Limit) -> ShotsPage:
+    """Strokes and decisions in order, with their events."""
+    return history.shots(context, game_id, cursor, limit)
+
+
+@router.get(
+    "/record",
+    **describe(NotFound, GameUnfinished, success={200: RECORD_TYPE}, token=False),
+    summary="The record of a finished game",
+)
+def record(game_id: str, context: Server) -> Response:
+    """JSON lines with everything that happened and the revealed seed, for `pooliad replay verify`."""
+    return Response(history.record(context, game_id), media_type=RECORD_TYPE)

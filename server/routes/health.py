@@ -1,0 +1,24 @@
+"""For whoever runs the server: is the process alive, can it do its work."""
+
+from fastapi import APIRouter
+
+from server.errors import Draining
+from server.routes.dependencies import Server
+from server.routes.describe import describe
+from server.store.upgrade import is_current
+
+router = APIRouter(tags=["operations"])
+
+
+@router.get("/healthz", **describe(token=False), summary="The process runs")
+def healthz() -> dict[str, str]:
+    """Answers as long as the process serves requests at all."""
+    return {"status": "ok"}
+
+
+@router.get("/readyz", **describe(Draining, token=False), summary="The server can take games")
+def readyz(context: Server) -> dict[str, str]:
+    """The database answers and has this version's tables, and the server is not shutting down."""
+    if context.wakeups.draining.is_set() or not is_current(context.database):
+        raise Draining("the server is shutting down or its database is not ready")
+    return {"status": "ready"}

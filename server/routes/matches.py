@@ -1,0 +1,64 @@
+"""Matches."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Query, Response
+
+from referee.wire import MatchList, MatchRequest, MatchView
+from server.errors import Forbidden, Invalid, NotFound, WrongStatus
+from server.routes.dependencies import Cursor, Limit, Sent, Server, respond
+from server.routes.describe import OWNED, describe
+from server.services import matches
+
+router = APIRouter(prefix="/v1/matches", tags=["matches"])
+
+
+@router.post(
+    "",
+    **describe(Forbidden, body=MatchRequest, success={201: MatchView}, key=True),
+    summary="Make a match, or challenge",
+)
+def create(context: Server, command: Sent) -> Response:
+    """From the organiser the match starts at once.
+
+    From one of the two agents it is a challenge to the other.
+    """
+    return respond(matches.create(context, command))
+
+
+@router.get("", **describe(Invalid, token=False), summary="Matches, the newest first")
+def listing(
+    context: Server,
+    cursor: Cursor,
+    limit: Limit,
+    agent: Annotated[str | None, Query(description="only this agent's")] = None,
+    status: Annotated[str | None, Query(description="challenged, running, finished or aborted")] = None,
+) -> MatchList:
+    """An agent finds the challenges it may accept with `?agent=ID&status=challenged`."""
+    return matches.listing(context, agent, status, cursor, limit)
+
+
+@router.get("/{match_id}", **describe(NotFound, token=False), summary="One match")
+def one(match_id: str, context: Server) -> MatchView:
+    """The match with its games so far."""
+    return matches.one(context, match_id)
+
+
+@router.post(
+    "/{match_id}/accept",
+    **describe(*OWNED, WrongStatus, success={200: MatchView}, key=True),
+    summary="Accept a challenge",
+)
+def accept(match_id: str, context: Server, command: Sent) -> Response:
+    """The first game begins."""
+    return respond(matches.accept(context, match_id, command))
+
+
+@router.post(
+    "/{match_id}/abort",
+    **describe(*OWNED, WrongStatus, success={200: MatchView}, key=True),
+    summary="Call a match off",
+)
+def abort(match_id: str, context: Server, command: Sent) -> Response:
+    """The organiser at any time; its players only while it is a challenge."""
+    return respond(matches.abort(context, match_id, command))

@@ -1,0 +1,40 @@
+"""The long poll."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Query, Request, Response
+
+from referee.wire import TurnMessage
+from server.errors import Forbidden, Invalid, invalid_field
+from server.routes.dependencies import Authenticated, Server
+from server.routes.describe import describe
+from server.services.turns import wait_for_message
+
+router = APIRouter(prefix="/v1/turns", tags=["turns"])
+
+
+@router.get(
+    "",
+    **describe(Forbidden, Invalid, success={200: TurnMessage, 204: ""}),
+    summary="The caller's next message",
+)
+async def next_message(
+    context: Server,
+    caller: Authenticated,
+    request: Request,
+    wait: Annotated[str, Query(description="seconds to wait for a message, 0 to 60", examples=["30"])] = "0",
+) -> Response:
+    """`turn` (until it is played), `game_over` or `match_over` (once each); 204 when there is none."""
+    seconds = _seconds(wait, context.settings.longest_wait)
+    message = await wait_for_message(context, caller.require_agent(), seconds, request.is_disconnected)
+    return Response(status_code=204) if message is None else Response(message, media_type="application/json")
+
+
+def _seconds(text: str, longest: float) -> float:
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = -1.0
+    if not 0.0 <= seconds <= longest:
+        raise invalid_field("wait", text, f"seconds, 0 to {longest:g}")
+    return seconds

@@ -1,0 +1,36 @@
+"""What every service works with: made once by `create_app`, handed down, never global."""
+
+from collections import defaultdict
+from dataclasses import dataclass, field
+
+from referee.play import nanoseconds
+from server.services.time import TimeSource
+from server.services.wakeups import Wakeups
+from server.settings import Settings
+from server.store.database import Database
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """One server's parts.
+
+    `in_hand`: for each game the arrival times of the requests that are being worked on.
+    """
+
+    settings: Settings
+    database: Database
+    time: TimeSource = field(default_factory=TimeSource)
+    wakeups: Wakeups = field(default_factory=Wakeups)
+    in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
+
+    @property
+    def fetch_grace(self) -> int:
+        """Nanoseconds a turn may lie unfetched before its clock starts by itself."""
+        return nanoseconds(self.settings.fetch_grace)
+
+    def is_in_hand(self, game_id: str, deadline: int) -> bool:
+        """Whether a request that came before the deadline is being worked on.
+
+        The mover's clock may have stopped.
+        """
+        return any(arrived < deadline for arrived in tuple(self.in_hand.get(game_id, ())))

@@ -1,0 +1,55 @@
+"""Matches and games as lists and single answers show them."""
+
+from typing import Any
+
+from sqlalchemy import Connection, Row, select
+
+from referee.game import Outcome
+from referee.play import MatchSeed
+from referee.play.clock import SECOND_NS
+from referee.wire import ClockTerms, GameSummary, MatchView, OutcomeView
+from server.services.games import winner_of
+from server.services.live import RUNNING, noise_view, player_names, score_of
+from server.services.time import date_time
+from server.store.tables import games
+
+
+def view(connection: Connection, match: Row[Any]) -> MatchView:
+    """A match with its games."""
+    score = score_of(connection, match.id)
+    played = connection.execute(select(games).where(games.c.match_id == match.id).order_by(games.c.number))
+    return MatchView(
+        id=match.id,
+        status=match.status,
+        agents=(match.seat_0, match.seat_1),
+        players=player_names(connection, match),
+        games=match.games,
+        rules=match.rules,
+        table=match.table,
+        noise=noise_view(match),
+        clock=ClockTerms(seconds=match.allowance / SECOND_NS),
+        challenger=None if match.challenger is None else int(match.challenger == match.seat_1),
+        first_breaker=None if match.started_at is None else MatchSeed.from_hex(match.seed).first_breaker,
+        score=score,
+        winner=winner_of(match.status, score),
+        played=tuple(GameSummary(**summary(row)) for row in played),
+        created_at=date_time(match.created_at),
+    )
+
+
+def summary(row: Row[Any]) -> dict[str, Any]:
+    """The fields of a `GameSummary`; the noise seed is there once the game is over."""
+    outcome = row.state["outcome"]
+    return {
+        "id": row.id,
+        "match": row.match_id,
+        "number": row.number,
+        "status": row.status,
+        "breaker": row.breaker,
+        "commitment": row.commitment,
+        "noise_seed": None if row.status == RUNNING else row.noise_seed,
+        "strokes": row.state["stroke"],
+        "outcome": None if outcome is None else OutcomeView.of(Outcome.from_dict(outcome)),
+        "started_at": date_time(row.started_at),
+        "finished_at": None if row.ended_at is None else date_time(row.ended_at),
+    }

@@ -1,0 +1,161 @@
+"""Matches: made by the organiser or by challenge and acceptance, played game after game, aborted."""
+
+import secrets
+from typing import Any
+
+from sqlalchemy import Connection, Row, insert, or_, select, update
+
+from referee.play import nanoseconds
+from referee.wire import MatchList, MatchRequest, MatchView
+from server.errors import Forbidden, NotFound, WrongStatus, invalid_field
+from server.security.callers import Caller
+from server.services import games, match_views
+from server.services.commands import Answer, Command, once, parse
+from server.services.context import Context
+from server.store.tables import agents, matches
+
+
+def create(context: Context, command: Command) -> Answer:
+    """A match by the organiser, which starts at once, or a challenge by one of the two agents."""
+    with context.database.writing() as connection:
+        answer = once(connection, command, lambda: _created(connection, context, command))
+    _announce(context, answer)
+    return answer
+
+
+def accept(context: Context, match_id: str, command: Command) -> Answer:
+    """The challenged agent (or the organiser) accepts, and the first game begins."""
+    with context.database.writing() as connection:
+        match = _find(connection, match_id)
+        _require_challenged(match, command.caller)
+        answer = once(connection, command, lambda: _accepted(connection, context, match, command.arrived))
+    context.wakeups.notify((match.seat_0, match.seat_1))
+    return answer
+
+
+def abort(context: Context, match_id: str, command: Command) -> Answer:
+    """Call a match off: the organiser at any time, a player only while it is a challenge."""
+    with context.database.writing() as connection:
+        match = _find(connection, match_id)
+        _require_may_abort(match, command.caller)
+        answer = once(connection, command, lambda: _aborted(connection, context, match, command.arrived))
+    context.wakeups.notify((match.seat_0, match.seat_1))
+    return answer
+
+
+def one(context: Context, match_id: str) -> MatchView:
+    """A match with its games; raises `NotFound`."""
+    with context.database.reading() as connection:
+        return match_views.view(connection, _find(connection, match_id))
+
+
+def listing(context: Context, agent_id: str | None, status: str | None, cursor: int, limit: int) -> MatchList:
+    """Matches, the newest first, of one agent or of one status when asked for."""
+    query = select(matches).order_by(matches.c.created_at.desc(), matches.c.id)
+    if agent_id is not None:
+        query = query.where(or_(matches.c.seat_0 == agent_id, matches.c.seat_1 == agent_id))
+    if status is not None:
+        query = query.where(matches.c.status == status)
+    with context.database.reading() as connection:
+        rows = connection.execute(query.offset(cursor).limit(limit + 1)).all()
+        views = tuple(match_views.view(connection, row) for row in rows[:limit])
+    return MatchList(matches=views, next_cursor=str(cursor + limit) if len(rows) > limit else None)
+
+
+def _created(connection: Connection, context: Context, command: Command) -> Answer:
+    request = parse(command, MatchRequest)
+    _require_right(request, command.caller)
+    _require_agents(connection, request)
+    match = _insert(connection, request, command)
+    if match.status == "running":
+        games.start(connection, context, match, 0, command.arrived)
+    return Answer.of(201, match_views.view(connection, match), location=f"/v1/matches/{match.id}")
+
+
+def _require_right(request: MatchRequest, caller: Caller) -> None:
+    if caller.is_organiser:
+        return
+    if caller.id not in request.agents:
+        raise Forbidden("only the organiser makes matches of others; an agent challenges for itself")
+    if request.seed is not None:
+        raise invalid_field("seed", request.seed, "null: only the organiser may give a seed")
+
+
+def _require_agents(connection: Connection, request: MatchRequest) -> None:
+    if request.agents[0] == request.agents[1]:
+        raise invalid_field("agents", list(request.agents), "two different agents")
+    for seat, agent_id in enumerate(request.agents):
+        if connection.execute(select(agents.c.id).where(agents.c.id == agent_id)).first() is None:
+            raise invalid_field(f"agents.{seat}", agent_id, "the id of a registered agent")
+
+
+def _insert(connection: Connection, request: MatchRequest, command: Command) -> Row[Any]:
+    organised = command.caller.is_organiser
+    row = {
+        "id": f"match_{secrets.token_hex(8)}",
+        "seat_0": request.agents[0],
+        "seat_1": request.agents[1],
+        "challenger": None if organised else command.caller.id,
+        "status": "running" if organised else "challenged",
+        "games": request.games,
+        "rules": request.rules,
+        "table": request.table,
+        "noise_level": request.noise.level,
+        "noise_told": request.noise.told,
+        "allowance": nanoseconds(request.clock.seconds),
+        "seed": request.seed or secrets.token_hex(32),
+        "created_at": command.arrived,
+        "started_at": command.arrived if organised else None,
+    }
+    connection.execute(insert(matches).values(row))
+    return _find(connection, str(row["id"]))
+
+
+def _accepted(connection: Connection, context: Context, match: Row[Any], now: int) -> Answer:
+    if match.status != "challenged":
+        raise WrongStatus(f"the match is {match.status}; only a challenge can be accepted")
+    _update(connection, match.id, status="running", started_at=now)
+    games.start(connection, context, match, 0, now)
+    return Answer.of(200, match_views.view(connection, _find(connection, match.id)))
+
+
+def _aborted(connection: Connection, context: Context, match: Row[Any], now: int) -> Answer:
+    if match.status not in ("challenged", "running"):
+        raise WrongStatus(f"the match is {match.status} already")
+    _update(connection, match.id, status="aborted", ended_at=now)
+    if match.status == "running":
+        games.abort_running(connection, context, match, now)
+    return Answer.of(200, match_views.view(connection, _find(connection, match.id)))
+
+
+def _require_challenged(match: Row[Any], caller: Caller) -> None:
+    if caller.is_organiser or (caller.id in (match.seat_0, match.seat_1) and caller.id != match.challenger):
+        return
+    raise Forbidden("only the challenged agent or the organiser accepts")
+
+
+def _require_may_abort(match: Row[Any], caller: Caller) -> None:
+    if caller.is_organiser:
+        return
+    if caller.id not in (match.seat_0, match.seat_1):
+        raise Forbidden("only its players and the organiser may call a match off")
+    if match.started_at is not None:
+        raise Forbidden(
+            "a match that has begun is called off by the organiser alone; a player can concede a game"
+        )
+
+
+def _find(connection: Connection, match_id: str) -> Row[Any]:
+    row = connection.execute(select(matches).where(matches.c.id == match_id)).one_or_none()
+    if row is None:
+        raise NotFound(f"there is no match {match_id}")
+    return row
+
+
+def _update(connection: Connection, match_id: str, **values: object) -> None:
+    connection.execute(update(matches).where(matches.c.id == match_id).values(**values))
+
+
+def _announce(context: Context, answer: Answer) -> None:
+    made = MatchView.model_validate_json(answer.body)
+    context.wakeups.notify(made.agents)

@@ -1,0 +1,135 @@
+"""A player's action, from the complete request to the stored answer: exactly once, whatever happens.
+
+The shot is simulated between two transactions; the second stores all of it or nothing. Noise depends on the
+game's seed and the stroke's index alone, so that a shot simulated twice is the same shot.
+"""
+
+from collections.abc import Callable
+
+from sqlalchemy import Connection, insert
+
+from referee import Action, Decision, Refusal
+from referee.play import Refused, Stroke, play_stroke
+from referee.wire import DecisionRequest, Fault, ShotRequest, StrokeAnswer, StrokeDetail, shown
+from server import errors
+from server.services import games
+from server.services.commands import Answer, Command, keep, parse, recall
+from server.services.context import Context
+from server.services.live import LiveGame, find
+from server.store.tables import moves
+
+
+def shoot(context: Context, game_id: str, command: Command) -> Answer:
+    """Play a stroke."""
+    return _act(context, game_id, command, lambda: parse(command, ShotRequest).to_action())
+
+
+def decide(context: Context, game_id: str, command: Command) -> Answer:
+    """Make one of the choices that a break leaves."""
+    return _act(context, game_id, command, lambda: parse(command, DecisionRequest).to_action())
+
+
+def concede(context: Context, game_id: str, command: Command) -> Answer:
+    """Give the game up, in turn. The body is not looked at."""
+    return _act(context, game_id, command, lambda: Action(decision=Decision.CONCEDE))
+
+
+def _act(context: Context, game_id: str, command: Command, read_action: Callable[[], Action]) -> Answer:
+    with context.database.reading() as connection:
+        live = find(connection, game_id)
+        seat = live.seat_of(command.caller)
+        if stored := recall(connection, command):
+            return stored
+        _require_turn(connection, live, seat, command)
+    stroke = _played(live, read_action())
+    with context.database.writing() as connection:
+        live = find(connection, game_id)
+        if stored := recall(connection, command):
+            return stored
+        _require_turn(connection, live, seat, command)
+        answer = _stored(connection, context, live, stroke, command)
+        keep(connection, command, answer)
+    context.wakeups.notify(live.agents)
+    return answer
+
+
+def _require_turn(connection: Connection, live: LiveGame, seat: int, command: Command) -> None:
+    """The checks between repetition and content, in the contract's order: 428, 409, 412, 409."""
+    version = _version(command)
+    if not live.is_running:
+        raise errors.GameFinished(f"game {live.id} is {live.row.status}")
+    if version != live.row.version:
+        raise errors.StaleVersion(
+            f"the game is at version {live.row.version}, not {version}",
+            field="If-Match",
+            value=command.if_match,
+            allowed=f'"{live.row.version}"',
+            view=live.view(connection, seat, command.arrived),
+        )
+    if live.game.turn != seat:
+        raise errors.NotYourTurn(f"it is the turn of seat {live.game.turn}, {live.players[live.game.turn]}")
+    if command.arrived >= live.row.deadline:
+        raise errors.OutOfTime("your time had run out when the request was complete")
+
+
+def _version(command: Command) -> int:
+    """The version in If-Match: digits, in quotes or not."""
+    text = command.if_match
+    if text is None:
+        raise errors.VersionRequired(
+            "the request does not say which view it answers",
+            field="If-Match",
+            allowed='the view\'s version, as "7"',
+        )
+    digits = text.strip().removeprefix('"').removesuffix('"')
+    if not (digits.isascii() and digits.isdecimal() and len(digits) <= 15):
+        raise errors.BadHeader(
+            "If-Match holds no version",
+            field="If-Match",
+            value=shown(text),
+            allowed='the view\'s version, as "7"',
+        )
+    return int(digits)
+
+
+def _played(live: LiveGame, action: Action) -> Stroke:
+    try:
+        return play_stroke(live.rules, live.game, action, live.seeds, live.noise)
+    except Refused as refused:
+        raise errors.Refused([_fault(refusal) for refusal in refused.refusals]) from refused
+
+
+def _fault(refusal: Refusal) -> Fault:
+    return Fault(
+        code="refused",
+        field=refusal.field,
+        value=shown(refusal.value),
+        allowed=refusal.allowed,
+        detail=refusal.words,
+        rule=refusal.rule,
+    )
+
+
+def _stored(
+    connection: Connection, context: Context, live: LiveGame, stroke: Stroke, command: Command
+) -> Answer:
+    """Write the move, the game that follows and its clocks; the answer to them."""
+    now = context.time.now()
+    number = live.row.version - games.FIRST_VERSION
+    detail = StrokeDetail.of(stroke, number)
+    content = detail.model_dump(mode="json")
+    charge = live.elapsed(command.arrived)
+    move = {
+        "game_id": live.id,
+        "number": number,
+        "seat": stroke.seat,
+        "events": content.pop("events"),
+        "stroke": content,
+        "charge": charge,
+        "created_at": now,
+    }
+    connection.execute(insert(moves).values(move))
+    live = games.advance(connection, context, live, stroke.game, charge, now)
+    view = live.view(connection, stroke.seat, now)
+    message = StrokeAnswer(game=live.id, stroke=detail, view=view, clocks=view.clocks)
+    return Answer.of(200, message, etag=f'"{live.row.version}"')

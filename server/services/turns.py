@@ -1,0 +1,88 @@
+"""The long poll: what an agent is to be told next, and the moment its clock starts."""
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from anyio.to_thread import run_sync
+from sqlalchemy import Connection, Row, select, update
+
+from referee.wire import Turn
+from server.services.context import Context
+from server.services.live import find
+from server.store.tables import games, notices
+
+
+async def wait_for_message(
+    context: Context, agent: str, seconds: float, is_gone: Callable[[], Awaitable[bool]]
+) -> bytes | None:
+    """The agent's next message as JSON, or None when there was none for `seconds` or the server is stopping.
+
+    Nothing is delivered to a caller who is gone: it would start a clock that nobody sees.
+
+    A wake-up is only a hint: the database is asked after each, and every few seconds without one, for another
+    process may have written what is waited for.
+    """
+    loop = asyncio.get_running_loop()
+    end = loop.time() + seconds
+    hint = context.wakeups.listen(agent)
+    try:
+        while not context.wakeups.draining.is_set() and not await is_gone():
+            hint.clear()
+            if (message := await run_sync(next_message, context, agent)) is not None:
+                return message
+            left = end - loop.time()
+            if left <= 0:
+                return None
+            await _wait(hint, min(left, context.settings.poll_recheck))
+        return None
+    finally:
+        context.wakeups.leave(agent, hint)
+
+
+async def _wait(hint: asyncio.Event, seconds: float) -> None:
+    try:
+        await asyncio.wait_for(hint.wait(), seconds)
+    except TimeoutError:
+        return
+
+
+def next_message(context: Context, agent: str) -> bytes | None:
+    """News first, each once; else the turn that waits, again and again until it is played."""
+    with context.database.reading() as connection:
+        if _news(connection, agent) is None and _waiting_turn(connection, agent) is None:
+            return None
+    with context.database.writing() as connection:
+        now = context.time.now()
+        if (news := _news(connection, agent)) is not None:
+            this = notices.c.sequence == news.sequence
+            connection.execute(update(notices).where(this).values(delivered_at=now))
+            return str(news.message).encode()
+        turn = _waiting_turn(connection, agent)
+        return None if turn is None else _delivered(connection, turn, agent, now)
+
+
+def _news(connection: Connection, agent: str) -> Row[Any] | None:
+    waiting = (notices.c.agent_id == agent) & (notices.c.delivered_at.is_(None))
+    return connection.execute(select(notices).where(waiting).order_by(notices.c.sequence).limit(1)).first()
+
+
+def _waiting_turn(connection: Connection, agent: str) -> Row[Any] | None:
+    """A turn not delivered yet goes before one that was."""
+    turns = select(games).where(games.c.mover == agent)
+    return connection.execute(turns.order_by(games.c.delivered, games.c.available_at).limit(1)).first()
+
+
+def _delivered(connection: Connection, turn: Row[Any], agent: str, now: int) -> bytes:
+    """The turn as a message; the first delivery starts the clock, unless it runs already."""
+    if not turn.delivered:
+        early = max(0, turn.clock_from - now)
+        started = {
+            "delivered": True,
+            "clock_from": turn.clock_from - early,
+            "deadline": turn.deadline - early,
+        }
+        connection.execute(update(games).where(games.c.id == turn.id).values(**started))
+    live = find(connection, turn.id)
+    view = live.view(connection, live.agents.index(agent), now)
+    return Turn(game=turn.id, view=view).model_dump_json().encode()

@@ -1,0 +1,74 @@
+"""What one server process is told: read once from the environment, then passed to `create_app`."""
+
+import hashlib
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+from .errors import SettingsError
+
+ENVIRONMENT_PREFIX = "POOLIAD_"
+SHORTEST_ORGANISER_TOKEN = 32
+"""Characters. 32 hexadecimal digits are 128 bits, the least that no one guesses."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """One server's settings; times in seconds, sizes in bytes.
+
+    `organiser_digest` is the SHA-256 (hex) of the organiser's token, None when nobody organises; the token
+    itself is never kept. `fetch_grace` is how long a turn may lie unfetched before its clock starts by
+    itself.
+    """
+
+    database: str = "sqlite:///pooliad.db"
+    organiser_digest: str | None = None
+    game_seconds: float = 300.0
+    fetch_grace: float = 5.0
+    timer_period: float = 0.2
+    poll_recheck: float = 2.0
+    longest_wait: float = 60.0
+    body_limit: int = 2 * 1024 * 1024
+    body_seconds: float = 10.0
+    batch_limit: int = 10_000
+    drain_seconds: float = 5.0
+
+    def __post_init__(self) -> None:
+        if not self.database.startswith("sqlite:///") or self.database == "sqlite:///:memory:":
+            raise SettingsError(f"database is {self.database!r}; allowed: sqlite:///path (a file)")
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, int | float) and not (math.isfinite(value) and value > 0):
+                raise SettingsError(f"{field.name} is {value!r}; allowed: a finite number above 0")
+
+    @classmethod
+    def from_environment(cls, environment: Mapping[str, str]) -> "Settings":
+        """Settings from `POOLIAD_DATABASE`, `POOLIAD_ORGANISER_TOKEN`, `POOLIAD_GAME_SECONDS`, …
+
+        Raises `SettingsError` naming the variable, its value and what is allowed.
+        """
+        given: dict[str, Any] = {}
+        for field in fields(cls):
+            name = ENVIRONMENT_PREFIX + field.name.upper()
+            if field.name != "organiser_digest" and name in environment:
+                given[field.name] = _parsed(name, environment[name], type(field.default))
+        if token := environment.get(ENVIRONMENT_PREFIX + "ORGANISER_TOKEN"):
+            given["organiser_digest"] = organiser_digest(token)
+        return cls(**given)
+
+
+def organiser_digest(token: str) -> str:
+    """SHA-256 (hex) of the organiser's token; raises `SettingsError` when it is short enough to guess."""
+    if len(token) < SHORTEST_ORGANISER_TOKEN:
+        raise SettingsError(
+            f"the organiser token has {len(token)} characters; allowed: at least {SHORTEST_ORGANISER_TOKEN}"
+        )
+    return hashlib.sha256(token.encode()).hexdigest()
+
+
+def _parsed(name: str, text: str, kind: Callable[[str], Any]) -> Any:
+    try:
+        return kind(text)
+    except ValueError as error:
+        raise SettingsError(f"{name} is {text!r}; allowed: a number") from error

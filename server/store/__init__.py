@@ -1,0 +1,1 @@
+"""Tables, migrations and transactions: everything the server remembers."""

@@ -1,0 +1,148 @@
+"""The first tables: agents, tokens, matches, games, moves, answers, notices."""
+
+import sqlalchemy as sa
+from alembic import op
+
+revision = "0001"
+down_revision = None
+branch_labels = None
+depends_on = None
+
+
+def upgrade() -> None:
+    """Create them."""
+    op.create_table(
+        "agents",
+        sa.Column("id", sa.String(length=64), nullable=False),
+        sa.Column("name", sa.String(length=64), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.PrimaryKeyConstraint("id", name=op.f("pk_agents")),
+        sa.UniqueConstraint("name", name=op.f("uq_agents_name")),
+    )
+    op.create_table(
+        "answers",
+        sa.Column("caller", sa.String(length=64), nullable=False),
+        sa.Column("route", sa.String(length=200), nullable=False),
+        sa.Column("key", sa.String(length=200), nullable=False),
+        sa.Column("request_digest", sa.String(length=64), nullable=False),
+        sa.Column("status", sa.Integer(), nullable=False),
+        sa.Column("headers", sa.JSON(), nullable=False),
+        sa.Column("body", sa.LargeBinary(), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.PrimaryKeyConstraint("caller", "route", "key", name=op.f("pk_answers")),
+    )
+    op.create_table(
+        "matches",
+        sa.Column("id", sa.String(length=64), nullable=False),
+        sa.Column("seat_0", sa.String(length=64), nullable=False),
+        sa.Column("seat_1", sa.String(length=64), nullable=False),
+        sa.Column("challenger", sa.String(length=64), nullable=True),
+        sa.Column("status", sa.String(length=16), nullable=False),
+        sa.Column("games", sa.Integer(), nullable=False),
+        sa.Column("rules", sa.String(length=32), nullable=False),
+        sa.Column("table", sa.JSON(), nullable=False),
+        sa.Column("noise_level", sa.Double(), nullable=False),
+        sa.Column("noise_told", sa.Boolean(), nullable=False),
+        sa.Column("allowance", sa.BigInteger(), nullable=False),
+        sa.Column("seed", sa.String(length=64), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.Column("started_at", sa.BigInteger(), nullable=True),
+        sa.Column("ended_at", sa.BigInteger(), nullable=True),
+        sa.ForeignKeyConstraint(["challenger"], ["agents.id"], name=op.f("fk_matches_challenger_agents")),
+        sa.ForeignKeyConstraint(["seat_0"], ["agents.id"], name=op.f("fk_matches_seat_0_agents")),
+        sa.ForeignKeyConstraint(["seat_1"], ["agents.id"], name=op.f("fk_matches_seat_1_agents")),
+        sa.PrimaryKeyConstraint("id", name=op.f("pk_matches")),
+    )
+    op.create_index(op.f("ix_matches_seat_0"), "matches", ["seat_0"], unique=False)
+    op.create_index(op.f("ix_matches_seat_1"), "matches", ["seat_1"], unique=False)
+    op.create_index(op.f("ix_matches_status"), "matches", ["status"], unique=False)
+    op.create_table(
+        "notices",
+        sa.Column(
+            "sequence",
+            sa.BigInteger().with_variant(sa.Integer(), "sqlite"),
+            autoincrement=True,
+            nullable=False,
+        ),
+        sa.Column("agent_id", sa.String(length=64), nullable=False),
+        sa.Column("message", sa.Text(), nullable=False),
+        sa.Column("delivered_at", sa.BigInteger(), nullable=True),
+        sa.ForeignKeyConstraint(["agent_id"], ["agents.id"], name=op.f("fk_notices_agent_id_agents")),
+        sa.PrimaryKeyConstraint("sequence", name=op.f("pk_notices")),
+    )
+    op.create_index("ix_notices_agent_delivered", "notices", ["agent_id", "delivered_at"], unique=False)
+    op.create_table(
+        "tokens",
+        sa.Column("digest", sa.String(length=64), nullable=False),
+        sa.Column("agent_id", sa.String(length=64), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.Column("revoked_at", sa.BigInteger(), nullable=True),
+        sa.ForeignKeyConstraint(["agent_id"], ["agents.id"], name=op.f("fk_tokens_agent_id_agents")),
+        sa.PrimaryKeyConstraint("digest", name=op.f("pk_tokens")),
+    )
+    op.create_index(op.f("ix_tokens_agent_id"), "tokens", ["agent_id"], unique=False)
+    op.create_table(
+        "games",
+        sa.Column("id", sa.String(length=64), nullable=False),
+        sa.Column("match_id", sa.String(length=64), nullable=False),
+        sa.Column("number", sa.Integer(), nullable=False),
+        sa.Column("noise_seed", sa.String(length=64), nullable=False),
+        sa.Column("commitment", sa.String(length=64), nullable=False),
+        sa.Column("breaker", sa.Integer(), nullable=False),
+        sa.Column("state", sa.JSON(), nullable=False),
+        sa.Column("version", sa.Integer(), nullable=False),
+        sa.Column("status", sa.String(length=16), nullable=False),
+        sa.Column("winner", sa.Integer(), nullable=True),
+        sa.Column("mover", sa.String(length=64), nullable=True),
+        sa.Column("used_0", sa.BigInteger(), nullable=False),
+        sa.Column("used_1", sa.BigInteger(), nullable=False),
+        sa.Column("delivered", sa.Boolean(), nullable=False),
+        sa.Column("available_at", sa.BigInteger(), nullable=False),
+        sa.Column("clock_from", sa.BigInteger(), nullable=False),
+        sa.Column("deadline", sa.BigInteger(), nullable=True),
+        sa.Column("started_at", sa.BigInteger(), nullable=False),
+        sa.Column("ended_at", sa.BigInteger(), nullable=True),
+        sa.ForeignKeyConstraint(["match_id"], ["matches.id"], name=op.f("fk_games_match_id_matches")),
+        sa.ForeignKeyConstraint(["mover"], ["agents.id"], name=op.f("fk_games_mover_agents")),
+        sa.PrimaryKeyConstraint("id", name=op.f("pk_games")),
+        sa.UniqueConstraint("match_id", "number", name=op.f("uq_games_match_id_number")),
+    )
+    op.create_index(op.f("ix_games_deadline"), "games", ["deadline"], unique=False)
+    op.create_index(op.f("ix_games_mover"), "games", ["mover"], unique=False)
+    op.create_table(
+        "moves",
+        sa.Column(
+            "sequence",
+            sa.BigInteger().with_variant(sa.Integer(), "sqlite"),
+            autoincrement=True,
+            nullable=False,
+        ),
+        sa.Column("game_id", sa.String(length=64), nullable=False),
+        sa.Column("number", sa.Integer(), nullable=False),
+        sa.Column("seat", sa.Integer(), nullable=False),
+        sa.Column("stroke", sa.JSON(), nullable=False),
+        sa.Column("events", sa.JSON(), nullable=False),
+        sa.Column("charge", sa.BigInteger(), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.ForeignKeyConstraint(["game_id"], ["games.id"], name=op.f("fk_moves_game_id_games")),
+        sa.PrimaryKeyConstraint("sequence", name=op.f("pk_moves")),
+        sa.UniqueConstraint("game_id", "number", name=op.f("uq_moves_game_id_number")),
+    )
+
+
+def downgrade() -> None:
+    """Drop them."""
+    op.drop_table("moves")
+    op.drop_index(op.f("ix_games_mover"), table_name="games")
+    op.drop_index(op.f("ix_games_deadline"), table_name="games")
+    op.drop_table("games")
+    op.drop_index(op.f("ix_tokens_agent_id"), table_name="tokens")
+    op.drop_table("tokens")
+    op.drop_index("ix_notices_agent_delivered", table_name="notices")
+    op.drop_table("notices")
+    op.drop_index(op.f("ix_matches_status"), table_name="matches")
+    op.drop_index(op.f("ix_matches_seat_1"), table_name="matches")
+    op.drop_index(op.f("ix_matches_seat_0"), table_name="matches")
+    op.drop_table("matches")
+    op.drop_table("answers")
+    op.drop_table("agents")

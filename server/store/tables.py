@@ -1,0 +1,144 @@
+"""The tables, as SQLAlchemy Core sees them. The migrations create them; a test compares the two.
+
+Times are nanoseconds, points in time since 1970 (`TimeSource`). What goes back to clients word for word
+(answers, noisy shots, events) is stored as the JSON text it was; secrets (seeds) leave the database only when
+their game is over.
+"""
+
+from sqlalchemy import (
+    JSON,
+    BigInteger,
+    Boolean,
+    Column,
+    Double,
+    ForeignKey,
+    Index,
+    Integer,
+    LargeBinary,
+    MetaData,
+    String,
+    Table,
+    Text,
+    UniqueConstraint,
+)
+
+metadata = MetaData(
+    naming_convention={
+        "ix": "ix_%(column_0_N_label)s",
+        "uq": "uq_%(table_name)s_%(column_0_N_name)s",
+        "fk": "fk_%(table_name)s_%(column_0_name)s_%(referred_table_name)s",
+        "pk": "pk_%(table_name)s",
+    }
+)
+
+Identifier = String(64)
+Sequence = BigInteger().with_variant(Integer, "sqlite")
+"""A number that grows with every row; SQLite counts by itself only in a plain INTEGER."""
+
+agents = Table(
+    "agents",
+    metadata,
+    Column("id", Identifier, primary_key=True),
+    Column("name", String(64), nullable=False, unique=True),
+    Column("created_at", BigInteger, nullable=False),
+)
+
+tokens = Table(
+    "tokens",
+    metadata,
+    Column("digest", String(64), primary_key=True),
+    Column("agent_id", Identifier, ForeignKey("agents.id"), nullable=False, index=True),
+    Column("created_at", BigInteger, nullable=False),
+    Column("revoked_at", BigInteger),
+)
+
+matches = Table(
+    "matches",
+    metadata,
+    Column("id", Identifier, primary_key=True),
+    Column("seat_0", Identifier, ForeignKey("agents.id"), nullable=False, index=True),
+    Column("seat_1", Identifier, ForeignKey("agents.id"), nullable=False, index=True),
+    Column("challenger", Identifier, ForeignKey("agents.id")),
+    Column("status", String(16), nullable=False, index=True),
+    Column("games", Integer, nullable=False),
+    Column("rules", String(32), nullable=False),
+    Column("table", JSON, nullable=False),
+    Column("noise_level", Double, nullable=False),
+    Column("noise_told", Boolean, nullable=False),
+    Column("allowance", BigInteger, nullable=False),
+    Column("seed", String(64), nullable=False),
+    Column("created_at", BigInteger, nullable=False),
+    Column("started_at", BigInteger),
+    Column("ended_at", BigInteger),
+)
+
+games = Table(
+    "games",
+    metadata,
+    Column("id", Identifier, primary_key=True),
+    Column("match_id", Identifier, ForeignKey("matches.id"), nullable=False),
+    Column("number", Integer, nullable=False),
+    Column("noise_seed", String(64), nullable=False),
+    Column("commitment", String(64), nullable=False),
+    Column("breaker", Integer, nullable=False),
+    Column("state", JSON, nullable=False),
+    Column("version", Integer, nullable=False),
+    Column("status", String(16), nullable=False),
+    Column("winner", Integer),
+    Column("mover", Identifier, ForeignKey("agents.id"), index=True),
+    Column("used_0", BigInteger, nullable=False),
+    Column("used_1", BigInteger, nullable=False),
+    Column("delivered", Boolean, nullable=False),
+    Column("available_at", BigInteger, nullable=False),
+    Column("clock_from", BigInteger, nullable=False),
+    Column("deadline", BigInteger, index=True),
+    Column("started_at", BigInteger, nullable=False),
+    Column("ended_at", BigInteger),
+    UniqueConstraint("match_id", "number"),
+)
+"""`mover`: whose turn it is, null when the game is over. `clock_from`: when the turn's clock starts or
+started; `deadline`: when it runs out, null when the game is over."""
+
+moves = Table(
+    "moves",
+    metadata,
+    Column("sequence", Sequence, primary_key=True, autoincrement=True),
+    Column("game_id", Identifier, ForeignKey("games.id"), nullable=False),
+    Column("number", Integer, nullable=False),
+    Column("seat", Integer, nullable=False),
+    Column("stroke", JSON, nullable=False),
+    Column("events", JSON, nullable=False),
+    Column("charge", BigInteger, nullable=False),
+    Column("created_at", BigInteger, nullable=False),
+    UniqueConstraint("game_id", "number"),
+)
+"""Every stroke and decision of a game, by number from 0; `stroke` and `events` together are a `StrokeDetail`,
+`charge` the time it took off the mover's clock."""
+
+answers = Table(
+    "answers",
+    metadata,
+    Column("caller", Identifier, primary_key=True),
+    Column("route", String(200), primary_key=True),
+    Column("key", String(200), primary_key=True),
+    Column("request_digest", String(64), nullable=False),
+    Column("status", Integer, nullable=False),
+    Column("headers", JSON, nullable=False),
+    Column("body", LargeBinary, nullable=False),
+    Column("created_at", BigInteger, nullable=False),
+)
+"""The idempotency rows.
+
+What was answered to an accepted request, stored in the transaction that carried it out.
+"""
+
+notices = Table(
+    "notices",
+    metadata,
+    Column("sequence", Sequence, primary_key=True, autoincrement=True),
+    Column("agent_id", Identifier, ForeignKey("agents.id"), nullable=False),
+    Column("message", Text, nullable=False),
+    Column("delivered_at", BigInteger),
+    Index("ix_notices_agent_delivered", "agent_id", "delivered_at"),
+)
+"""Messages that are news rather than a question: `game_over` and `match_over`, one row for each player."""

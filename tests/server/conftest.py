@@ -1,0 +1,191 @@
+"""A real server for the tests: `python -m server` on loopback, as a process, with a real SQLite file."""
+
+import itertools
+import json
+import os
+import secrets
+import signal
+import subprocess
+import sys
+import uuid
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx2
+import pytest
+
+ORGANISER_TOKEN = secrets.token_urlsafe(32)
+PATIENCE = 30.0
+
+_names = itertools.count()
+
+
+class Running:
+    """One server process over one database file; it can be stopped, killed and started again."""
+
+    def __init__(self, database: Path, environment: dict[str, str]) -> None:
+        self.database = database
+        self._environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER_TOKEN} | environment
+        self._log = database.with_suffix(".log").open("ab")
+        self.start()
+
+    def start(self) -> None:
+        command = [sys.executable, "-m", "server", "--port", "0", "--database", f"sqlite:///{self.database}"]
+        self.process = subprocess.Popen(
+            command, env=self._environment, stdout=subprocess.PIPE, stderr=self._log, text=True
+        )
+        assert self.process.stdout is not None
+        line = self.process.stdout.readline()
+        if not line:
+            self.close()
+            pytest.fail(f"the server did not start:\n{self.log}")
+        announced = json.loads(line)
+        assert announced["event"] == "listening"
+        self.url = announced["url"]
+
+    def stop(self, number: int = signal.SIGTERM) -> int:
+        """Send a signal and wait for the end; the exit code."""
+        self.process.send_signal(number)
+        self.process.wait(PATIENCE)
+        assert self.process.stdout is not None
+        self.process.stdout.close()
+        return self.process.returncode
+
+    def restart(self, number: int = signal.SIGTERM) -> None:
+        self.stop(number)
+        self.start()
+
+    def close(self) -> None:
+        self.stop(signal.SIGKILL)
+        self._log.close()
+
+    @property
+    def log(self) -> str:
+        return self.database.with_suffix(".log").read_text()
+
+    def caller(self, token: str | None = None) -> httpx2.Client:
+        headers = {"Authorization": f"Bearer {token}"} if token else {}
+        return httpx2.Client(base_url=self.url, headers=headers, timeout=PATIENCE)
+
+
+class Player:
+    """An agent with its token, and the requests it makes."""
+
+    def __init__(self, server: Running, agent_id: str, token: str) -> None:
+        self.server, self.id, self.token = server, agent_id, token
+
+    def get(self, path: str, **params: Any) -> httpx2.Response:
+        with self.server.caller(self.token) as http:
+            return http.get(path, params=params)
+
+    def post(
+        self, path: str, body: Any = None, *, key: str | None = None, version: Any = None
+    ) -> httpx2.Response:
+        """A well-formed command: a key of its own unless one is given, If-Match when a version is."""
+        headers = {"Idempotency-Key": key or str(uuid.uuid4())}
+        if version is not None:
+            headers["If-Match"] = f'"{version}"'
+        with self.server.caller(self.token) as http:
+            return http.post(path, headers=headers, **({} if body is None else {"json": body}))
+
+    def turn(self, wait: float = 10) -> dict[str, Any]:
+        """The next message of the long poll; there must be one."""
+        response = self.get("/v1/turns", wait=wait)
+        assert response.status_code == 200, response.text
+        return dict(response.json())
+
+    def act(self, view: dict[str, Any], action: dict[str, Any], **options: Any) -> httpx2.Response:
+        """Answer a view: a shot, or a decision."""
+        verb = "decisions" if "decision" in action else "shots"
+        return self.post(f"/v1/games/{view['game']}/{verb}", action, version=view["version"], **options)
+
+
+class Table:
+    """A match of two fresh agents, and its players by seat."""
+
+    def __init__(self, server: Running, **terms: Any) -> None:
+        self.players = (register(server), register(server))
+        self.organiser = Player(server, "organiser", ORGANISER_TOKEN)
+        request = {"agents": [player.id for player in self.players], "seed": "5" * 64} | terms
+        response = self.organiser.post("/v1/matches", request)
+        assert response.status_code == 201, response.text
+        self.match = response.json()
+
+    @property
+    def game(self) -> str:
+        """The id of the game now played."""
+        match = self.organiser.get(f"/v1/matches/{self.match['id']}").json()
+        return str(match["played"][-1]["id"])
+
+    def mover(self) -> tuple[Player, dict[str, Any]]:
+        """Who is to play, and the view delivered for it."""
+        turn = self.organiser.get(f"/v1/games/{self.game}").json()["view"]["turn"]
+        message = self.players[turn].turn()
+        assert message["type"] == "turn"
+        return self.players[turn], message["view"]
+
+
+def register(server: Running) -> Player:
+    with server.caller() as http:
+        response = http.post("/v1/agents", json={"name": f"player {next(_names)} {uuid.uuid4().hex[:8]}"})
+    assert response.status_code == 201, response.text
+    made = response.json()
+    return Player(server, made["agent"]["id"], made["token"])
+
+
+BREAK = {
+    "shot": {"v": 9.0, "phi": 270.0, "theta": 10.0, "a": 0.0, "b": 0.0},
+    "call": None,
+    "cue_ball": [0.558, 1.8],
+}
+"""A break from straight behind the rack: legal at every noise level the tests use."""
+
+
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+    """A server that lives as long as the tests; they must not stop it."""
+    running = Running(tmp_path_factory.mktemp("server") / "pooliad.db", {})
+    yield running
+    running.close()
+
+
+@pytest.fixture
+def own_server(tmp_path: Path) -> Iterator[Callable[..., Running]]:
+    """Makes a server of the test's own, with settings from environment variables, to be stopped as it likes."""
+    started: list[Running] = []
+
+    def make(**environment: str) -> Running:
+        started.append(Running(tmp_path / f"pooliad{len(started)}.db", environment))
+        return started[-1]
+
+    yield make
+    for running in started:
+        running.close()
+
+
+@pytest.fixture
+def organiser(server: Running) -> Player:
+    return Player(server, "organiser", ORGANISER_TOKEN)
+
+
+@pytest.fixture
+def new_player(server: Running) -> Callable[[], Player]:
+    return lambda: register(server)
+
+
+@pytest.fixture
+def new_table(server: Running) -> Callable[..., Table]:
+    """Makes a running match of two fresh agents; terms as in `POST /v1/matches`."""
+    return lambda **terms: Table(server, **terms)
+
+
+@pytest.fixture
+def table_at() -> Callable[..., Table]:
+    """The same at a server of the test's own."""
+    return Table
+
+
+@pytest.fixture
+def break_shot() -> dict[str, Any]:
+    return BREAK
