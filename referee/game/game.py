@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from enum import StrEnum
-from typing import Any
+from typing import Any, TypeVar
 
 from physics.state import TableState
 from referee.errors import InvalidGame
@@ -112,30 +112,61 @@ class Game:
             InvalidGame: a key is missing or unknown, or a value is not one of its kind.
             physics.InvalidState: the balls do not lie on a table.
         """
-        names = {field.name for field in fields(cls)}
-        if set(data) != names:
-            raise InvalidGame("game", sorted(set(data) ^ names), f"exactly the keys {sorted(names)}")
-        try:
-            return cls(**_values(data))
-        except (TypeError, ValueError) as error:
-            if type(error) in (TypeError, ValueError):
-                raise InvalidGame("game", dict(data), str(error)) from None
-            raise
+        if set(data) != _NAMES:
+            raise InvalidGame("game", sorted(set(data) ^ _NAMES), f"exactly the keys {sorted(_NAMES)}")
+        return cls(
+            state=TableState.from_dict(data["state"]),
+            phase=_member(Phase, "phase", data["phase"]),
+            turn=_seat("turn", data["turn"]),
+            breaker=_seat("breaker", data["breaker"]),
+            groups=_groups(data["groups"]),
+            cue_ball_in_hand=_optional(CueBallArea, "cue_ball_in_hand", data["cue_ball_in_hand"]),
+            decisions=tuple(_member(Decision, "decisions", one) for one in data["decisions"]),
+            choice=_rule("choice", data["choice"]),
+            outcome=None if data["outcome"] is None else Outcome.from_dict(data["outcome"]),
+            **{name: _count(name, data[name]) for name in _COUNTS},
+        )
 
 
-_PLAIN = ("turn", "breaker", "choice", "stroke", "rack", "visit_strokes", "dry_visits", "replays")
+_COUNTS = ("stroke", "rack", "visit_strokes", "dry_visits", "replays")
+_PLAIN = ("turn", "breaker", "choice", *_COUNTS)
+_NAMES = {field.name for field in fields(Game)}
+
+E = TypeVar("E", bound=StrEnum)
 
 
-def _values(data: Mapping[str, Any]) -> dict[str, Any]:
-    groups, area, outcome = data["groups"], data["cue_ball_in_hand"], data["outcome"]
-    for name in ("turn", "breaker"):
-        if data[name] not in (0, 1):
-            raise InvalidGame(name, data[name], "seat 0 or 1")
-    return {name: data[name] for name in _PLAIN} | {
-        "state": TableState.from_dict(data["state"]),
-        "phase": Phase(data["phase"]),
-        "groups": None if groups is None else tuple(Group(group) for group in groups),
-        "cue_ball_in_hand": None if area is None else CueBallArea(area),
-        "decisions": tuple(Decision(decision) for decision in data["decisions"]),
-        "outcome": None if outcome is None else Outcome.from_dict(outcome),
-    }
+def _member(kind: type[E], name: str, value: Any) -> E:
+    try:
+        return kind(value)
+    except ValueError:
+        raise InvalidGame(name, value, f"one of {', '.join(kind)}") from None
+
+
+def _optional(kind: type[E], name: str, value: Any) -> E | None:
+    return None if value is None else _member(kind, name, value)
+
+
+def _count(name: str, value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+        raise InvalidGame(name, value, "an integer of at least 0")
+    return value
+
+
+def _seat(name: str, value: Any) -> int:
+    if _count(name, value) > 1:
+        raise InvalidGame(name, value, "seat 0 or 1")
+    return int(value)
+
+
+def _rule(name: str, value: Any) -> str | None:
+    if value is not None and not isinstance(value, str):
+        raise InvalidGame(name, value, "a rule id or null")
+    return value
+
+
+def _groups(value: Any) -> tuple[Group, Group] | None:
+    if value is None:
+        return None
+    if isinstance(value, list | tuple) and sorted(map(str, value)) == [Group.SOLIDS, Group.STRIPES]:
+        return Group(value[0]), Group(value[1])
+    raise InvalidGame("groups", value, 'null, ["solids", "stripes"] or ["stripes", "solids"]')

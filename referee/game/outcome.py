@@ -38,8 +38,10 @@ class Outcome:
     rule: str
 
     def __post_init__(self) -> None:
-        if self.winner not in (None, 0, 1):
+        if self.winner not in (None, 0, 1) or isinstance(self.winner, bool):
             raise InvalidGame("outcome.winner", self.winner, "seat 0, seat 1 or None")
+        if not isinstance(self.rule, str):
+            raise InvalidGame("outcome.rule", self.rule, "a rule id")
 
     def to_dict(self) -> dict[str, Any]:
         """``{"winner": 0, "reason": "eight_made", "rule": "R46"}``."""
@@ -47,10 +49,11 @@ class Outcome:
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> "Outcome":
-        """Read what ``to_dict`` wrote."""
+        """Read what ``to_dict`` wrote; ``InvalidGame`` if it is not that."""
+        if not isinstance(data, Mapping) or set(data) != {"winner", "reason", "rule"}:
+            raise InvalidGame("outcome", data, "an object with winner, reason and rule")
         try:
-            return cls(data["winner"], EndReason(data["reason"]), str(data["rule"]))
-        except KeyError as missing:
-            raise InvalidGame("outcome", dict(data), f"{missing} is missing") from None
+            reason = EndReason(data["reason"])
         except ValueError:
             raise InvalidGame("outcome.reason", data["reason"], f"one of {', '.join(EndReason)}") from None
+        return cls(data["winner"], reason, data["rule"])

@@ -110,7 +110,7 @@ class EightBall:
 
         Args:
             game: a game that is not over.
-            reason: one of concession, time_out, forfeit, no_show, crash, stall, lost by ``loser``; or aborted.
+            reason: concession, time_out, forfeit, no_show, crash or stall (lost by ``loser``), or aborted.
             loser: the seat that loses; None exactly when aborted.
 
         Raises:

@@ -3,6 +3,7 @@
 from math import dist, sqrt
 from typing import Final
 
+from physics.constants import PLACEMENT_TOLERANCE
 from physics.rack import rack
 from physics.state import TableState
 from physics.table import Table
@@ -62,7 +63,7 @@ def balls_separated(table: Table, state: TableState) -> bool:
     ]
     diameter = 2.0 * table.ball_radius
     neighbours = sum(distance < diameter + table.rack_gap + RACK_TOLERANCE for distance in apart)
-    return min(apart) >= diameter and neighbours == ROWS * (ROWS - 1) * 3 // 2
+    return min(apart) >= diameter - PLACEMENT_TOLERANCE and neighbours == ROWS * (ROWS - 1) * 3 // 2
 
 
 def breaker(first: int, game: int) -> int:
