@@ -102,7 +102,7 @@ def _jittered(
     """The places moved at random: x then y of each in order, all drawn again while any two balls touch."""
     for _ in range(_REDRAWS):
         draws = [sigma * stream.gaussian() for _ in range(places.size)]
-        moved = places + np.array(draws).reshape(places.shape)
+        moved: NDArray[np.float64] = places + np.array(draws).reshape(places.shape)
         if _are_clear(moved, diameter):
             return moved
     return places

@@ -11,6 +11,8 @@ import secrets
 from dataclasses import dataclass, field
 from typing import Self
 
+from referee.rules import breaker
+
 SEED_BYTES = 32
 """256 bits: out of reach of any search."""
 
@@ -85,7 +87,7 @@ class MatchSeed:
 
     def breaker(self, number: int) -> int:
         """The seat that breaks the ``number``-th game: the break alternates (R50)."""
-        return (self.first_breaker + number) % 2
+        return breaker(self.first_breaker, number)
 
 
 def commitment(seed: bytes) -> str:

@@ -3,6 +3,7 @@
 from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field
+from pydantic.config import JsonDict
 
 from referee.wire.outcomes import EventView
 from referee.wire.shots import ShotParameters
@@ -11,8 +12,8 @@ from referee.wire.values import Balls, Flag, Integer, Message, Number, Request, 
 BATCH_LIMIT = 10_000
 """Shots in one batch request: about a tenth of a second of one core."""
 
-_SHOT = {"v": 2.0, "phi": 260.0, "theta": 8.0, "a": 0.0, "b": 3.0}
-_BALLS = {"0": [0.5, 1.7], "3": [0.4, 0.6]}
+_SHOT: JsonDict = {"v": 2.0, "phi": 260.0, "theta": 8.0, "a": 0.0, "b": 3.0}
+_BALLS: JsonDict = {"0": [0.5, 1.7], "3": [0.4, 0.6]}
 
 
 class SimulateRequest(Request):

@@ -1,5 +1,6 @@
 """Strokes and decisions of the past, as answers, views and histories show them."""
 
+from collections.abc import Sequence
 from typing import Any, Self
 
 from physics.status import Status
@@ -70,6 +71,14 @@ class StrokeDetail(StrokeView):
     def summary(self) -> StrokeView:
         """The same stroke without its events."""
         return StrokeView.model_construct(**{name: getattr(self, name) for name in StrokeView.model_fields})
+
+
+def since_own_last(strokes: Sequence[StrokeView], seat: int | None) -> tuple[StrokeView, ...]:
+    """The strokes a view shows: from the reader's own last one on; for a spectator (None) the last alone."""
+    if seat is None:
+        return tuple(strokes[-1:])
+    own = (place for place in range(len(strokes) - 1, -1, -1) if strokes[place].seat == seat)
+    return tuple(strokes[next(own, 0) :])
 
 
 def _summary(stroke: Stroke, index: int) -> dict[str, Any]:

@@ -1,0 +1,53 @@
+"""Which engine made a record: the version, and a digest of the code that decides what happens."""
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import version
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from typing import Any
+
+_DECIDING = ("physics", "referee.game", "referee.rules", "referee.play")
+"""Packages whose code a game's course depends on. Any edit there makes another engine: stricter than need be,
+but a record must never be called false because of a change in the engine, nor true in spite of one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Engine:
+    """An engine.
+
+    Attributes:
+        version: of the distribution ``pooliad``.
+        digest: SHA-256 over the deciding packages' source files, hex.
+    """
+
+    version: str
+    digest: str
+
+    def __str__(self) -> str:
+        return f"pooliad {self.version} (engine {self.digest[:12]})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values, for the record's header."""
+        return {"version": self.version, "digest": self.digest}
+
+
+@cache
+def this_engine() -> Engine:
+    """The engine that is running."""
+    total = hashlib.sha256()
+    for package in _DECIDING:
+        for name, source in sorted(_sources(files(package), package)):
+            total.update(f"{name}\0{hashlib.sha256(source).hexdigest()}\n".encode())
+    return Engine(version("pooliad"), total.hexdigest())
+
+
+def _sources(folder: Traversable, name: str) -> Iterator[tuple[str, bytes]]:
+    """(dotted name, bytes) of every Python file, line endings made equal."""
+    for entry in folder.iterdir():
+        if entry.name.endswith(".py"):
+            yield f"{name}.{entry.name}", entry.read_bytes().replace(b"\r\n", b"\n")
+        elif entry.is_dir() and entry.name.isidentifier():
+            yield from _sources(entry, f"{name}.{entry.name}")
