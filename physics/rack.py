@@ -24,8 +24,8 @@ _EIGHT_PLACE: Final = 4
 """Middle of the third row; places are counted from the apex, row by row, from west to east."""
 _CORNERS: Final = (10, 14)
 _REDRAWS: Final = 64
-"""Draws of the disorder before the exact lattice is taken. One in some 3,000 leaves two balls overlapping; this
-last resort is never seen, it only makes the end of the loop certain."""
+"""Draws of the disorder before the exact lattice is taken. One in some 3,000 leaves two balls overlapping;
+this last resort is never seen, it only makes the end of the loop certain."""
 
 
 def rack(
