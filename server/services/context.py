@@ -1,7 +1,11 @@
 """What every service works with: made once by `create_app`, handed down, never global."""
 
 from collections import defaultdict
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+
+from sqlalchemy import Connection
 
 from referee.play import nanoseconds
 from server.services.time import TimeSource
@@ -28,9 +32,24 @@ class Context:
         """Nanoseconds a turn may lie unfetched before its clock starts by itself."""
         return nanoseconds(self.settings.fetch_grace)
 
+    @contextmanager
+    def writing(self) -> Iterator["Writing"]:
+        """A transaction that commits at the end of the block and rolls back when it raises."""
+        with self.database.writing() as connection:
+            yield Writing(connection, self, self.time.now())
+
     def is_in_hand(self, game_id: str, deadline: int) -> bool:
         """Whether a request that came before the deadline is being worked on.
 
         The mover's clock may have stopped.
         """
         return any(arrived < deadline for arrived in tuple(self.in_hand.get(game_id, ())))
+
+
+@dataclass(frozen=True, slots=True)
+class Writing:
+    """A transaction that is under way: its connection, the server's parts, and the time it happens at."""
+
+    connection: Connection
+    context: Context
+    now: int

@@ -1,8 +1,11 @@
 """Looking at games: how one stands, its strokes in pages, its record."""
 
+import json
+
 from sqlalchemy import select
 
 from referee.wire import GameAnswer, ShotsPage, StrokeDetail
+from server.errors import GameUnfinished
 from server.security.callers import Caller
 from server.services.commands import Answer
 from server.services.context import Context
@@ -26,5 +29,19 @@ def shots(context: Context, game_id: str, cursor: int, limit: int) -> ShotsPage:
     with context.database.reading() as connection:
         find(connection, game_id)
         rows = connection.execute(select(moves).where(ours).order_by(moves.c.number).limit(limit + 1)).all()
-    page = tuple(StrokeDetail.model_validate(row.stroke | {"events": row.events}) for row in rows[:limit])
+    page = tuple(
+        StrokeDetail.model_validate(row.stroke | {"events": json.loads(row.line).get("events", ())})
+        for row in rows[:limit]
+    )
     return ShotsPage(shots=page, next_cursor=cursor + limit if len(rows) > limit else None)
+
+
+def record(context: Context, game_id: str) -> str:
+    """The record of a game that is over, as JSON lines; raises `GameUnfinished`."""
+    ours = select(moves.c.line).where(moves.c.game_id == game_id).order_by(moves.c.number)
+    with context.database.reading() as connection:
+        live = find(connection, game_id)
+        if live.is_running:
+            raise GameUnfinished("the record, with the seed, is published when the game is over")
+        lines = connection.scalars(ours).all()
+    return "".join(f"{line}\n" for line in (live.row.header, *lines, live.row.ending))

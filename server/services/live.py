@@ -82,7 +82,7 @@ class LiveGame:
         return self.agents.index(caller.id)
 
     def elapsed(self, now: int) -> int:
-        """Nanoseconds that the running turn has taken so far."""
+        """Nanoseconds that the running turn has taken and that are not charged yet."""
         return max(0, now - int(self.row.clock_from)) if self.is_running else 0
 
     def clock_views(self, now: int) -> tuple[ClockView, ClockView]:

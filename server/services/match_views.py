@@ -8,8 +8,8 @@ from referee.game import Outcome
 from referee.play import MatchSeed
 from referee.play.clock import SECOND_NS
 from referee.wire import ClockTerms, GameSummary, MatchView, OutcomeView
-from server.services.games import winner_of
 from server.services.live import RUNNING, noise_view, player_names, score_of
+from server.services.notices import winner_of
 from server.services.time import date_time
 from server.store.tables import games
 

@@ -11,34 +11,34 @@ from server.errors import Forbidden, NotFound, WrongStatus, invalid_field
 from server.security.callers import Caller
 from server.services import games, match_views
 from server.services.commands import Answer, Command, once, parse
-from server.services.context import Context
+from server.services.context import Context, Writing
 from server.store.tables import agents, matches
 
 
 def create(context: Context, command: Command) -> Answer:
     """A match by the organiser, which starts at once, or a challenge by one of the two agents."""
-    with context.database.writing() as connection:
-        answer = once(connection, command, lambda: _created(connection, context, command))
+    with context.writing() as writing:
+        answer = once(writing.connection, command, lambda: _created(writing, command))
     _announce(context, answer)
     return answer
 
 
 def accept(context: Context, match_id: str, command: Command) -> Answer:
     """The challenged agent (or the organiser) accepts, and the first game begins."""
-    with context.database.writing() as connection:
-        match = _find(connection, match_id)
+    with context.writing() as writing:
+        match = _find(writing.connection, match_id)
         _require_challenged(match, command.caller)
-        answer = once(connection, command, lambda: _accepted(connection, context, match, command.arrived))
+        answer = once(writing.connection, command, lambda: _accepted(writing, match))
     context.wakeups.notify((match.seat_0, match.seat_1))
     return answer
 
 
 def abort(context: Context, match_id: str, command: Command) -> Answer:
     """Call a match off: the organiser at any time, a player only while it is a challenge."""
-    with context.database.writing() as connection:
-        match = _find(connection, match_id)
+    with context.writing() as writing:
+        match = _find(writing.connection, match_id)
         _require_may_abort(match, command.caller)
-        answer = once(connection, command, lambda: _aborted(connection, context, match, command.arrived))
+        answer = once(writing.connection, command, lambda: _aborted(writing, match))
     context.wakeups.notify((match.seat_0, match.seat_1))
     return answer
 
@@ -62,14 +62,14 @@ def listing(context: Context, agent_id: str | None, status: str | None, cursor: 
     return MatchList(matches=views, next_cursor=str(cursor + limit) if len(rows) > limit else None)
 
 
-def _created(connection: Connection, context: Context, command: Command) -> Answer:
+def _created(writing: Writing, command: Command) -> Answer:
     request = parse(command, MatchRequest)
     _require_right(request, command.caller)
-    _require_agents(connection, request)
-    match = _insert(connection, request, command)
+    _require_agents(writing.connection, request)
+    match = _insert(writing, request, command.caller)
     if match.status == "running":
-        games.start(connection, context, match, 0, command.arrived)
-    return Answer.of(201, match_views.view(connection, match), location=f"/v1/matches/{match.id}")
+        games.begin(writing, match, 0)
+    return Answer.of(201, match_views.view(writing.connection, match), location=f"/v1/matches/{match.id}")
 
 
 def _require_right(request: MatchRequest, caller: Caller) -> None:
@@ -89,13 +89,13 @@ def _require_agents(connection: Connection, request: MatchRequest) -> None:
             raise invalid_field(f"agents.{seat}", agent_id, "the id of a registered agent")
 
 
-def _insert(connection: Connection, request: MatchRequest, command: Command) -> Row[Any]:
-    organised = command.caller.is_organiser
+def _insert(writing: Writing, request: MatchRequest, caller: Caller) -> Row[Any]:
+    organised = caller.is_organiser
     row = {
         "id": f"match_{secrets.token_hex(8)}",
         "seat_0": request.agents[0],
         "seat_1": request.agents[1],
-        "challenger": None if organised else command.caller.id,
+        "challenger": None if organised else caller.id,
         "status": "running" if organised else "challenged",
         "games": request.games,
         "rules": request.rules,
@@ -104,28 +104,29 @@ def _insert(connection: Connection, request: MatchRequest, command: Command) -> 
         "noise_told": request.noise.told,
         "allowance": nanoseconds(request.clock.seconds),
         "seed": request.seed or secrets.token_hex(32),
-        "created_at": command.arrived,
-        "started_at": command.arrived if organised else None,
+        "created_at": writing.now,
+        "started_at": writing.now if organised else None,
     }
-    connection.execute(insert(matches).values(row))
-    return _find(connection, str(row["id"]))
+    writing.connection.execute(insert(matches).values(row))
+    return _find(writing.connection, str(row["id"]))
 
 
-def _accepted(connection: Connection, context: Context, match: Row[Any], now: int) -> Answer:
+def _accepted(writing: Writing, match: Row[Any]) -> Answer:
     if match.status != "challenged":
         raise WrongStatus(f"the match is {match.status}; only a challenge can be accepted")
-    _update(connection, match.id, status="running", started_at=now)
-    games.start(connection, context, match, 0, now)
-    return Answer.of(200, match_views.view(connection, _find(connection, match.id)))
+    match = _update(writing.connection, match.id, status="running", started_at=writing.now)
+    games.begin(writing, match, 0)
+    return Answer.of(200, match_views.view(writing.connection, match))
 
 
-def _aborted(connection: Connection, context: Context, match: Row[Any], now: int) -> Answer:
+def _aborted(writing: Writing, match: Row[Any]) -> Answer:
     if match.status not in ("challenged", "running"):
         raise WrongStatus(f"the match is {match.status} already")
-    _update(connection, match.id, status="aborted", ended_at=now)
-    if match.status == "running":
-        games.abort_running(connection, context, match, now)
-    return Answer.of(200, match_views.view(connection, _find(connection, match.id)))
+    was_running = match.status == "running"
+    match = _update(writing.connection, match.id, status="aborted", ended_at=writing.now)
+    if was_running:
+        games.abort_running(writing, match)
+    return Answer.of(200, match_views.view(writing.connection, match))
 
 
 def _require_challenged(match: Row[Any], caller: Caller) -> None:
@@ -152,8 +153,9 @@ def _find(connection: Connection, match_id: str) -> Row[Any]:
     return row
 
 
-def _update(connection: Connection, match_id: str, **values: object) -> None:
+def _update(connection: Connection, match_id: str, **values: object) -> Row[Any]:
     connection.execute(update(matches).where(matches.c.id == match_id).values(**values))
+    return _find(connection, match_id)
 
 
 def _announce(context: Context, answer: Answer) -> None:

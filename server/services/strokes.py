@@ -10,11 +10,12 @@ from sqlalchemy import Connection, insert
 
 from referee import Action, Decision, Refusal
 from referee.play import Refused, Stroke, play_stroke
+from referee.record import canonical, stroke_entry
 from referee.wire import DecisionRequest, Fault, ShotRequest, StrokeAnswer, StrokeDetail, shown
 from server import errors
 from server.services import games
 from server.services.commands import Answer, Command, keep, parse, recall
-from server.services.context import Context
+from server.services.context import Context, Writing
 from server.services.live import LiveGame, find
 from server.store.tables import moves
 
@@ -42,13 +43,13 @@ def _act(context: Context, game_id: str, command: Command, read_action: Callable
             return stored
         _require_turn(connection, live, seat, command)
     stroke = _played(live, read_action())
-    with context.database.writing() as connection:
-        live = find(connection, game_id)
-        if stored := recall(connection, command):
+    with context.writing() as writing:
+        live = find(writing.connection, game_id)
+        if stored := recall(writing.connection, command):
             return stored
-        _require_turn(connection, live, seat, command)
-        answer = _stored(connection, context, live, stroke, command)
-        keep(connection, command, answer)
+        _require_turn(writing.connection, live, seat, command)
+        answer = _stored(writing, live, stroke, live.elapsed(command.arrived))
+        keep(writing.connection, command, answer)
     context.wakeups.notify(live.agents)
     return answer
 
@@ -110,26 +111,19 @@ def _fault(refusal: Refusal) -> Fault:
     )
 
 
-def _stored(
-    connection: Connection, context: Context, live: LiveGame, stroke: Stroke, command: Command
-) -> Answer:
+def _stored(writing: Writing, live: LiveGame, stroke: Stroke, elapsed: int) -> Answer:
     """Write the move, the game that follows and its clocks; the answer to them."""
-    now = context.time.now()
     number = live.row.version - games.FIRST_VERSION
     detail = StrokeDetail.of(stroke, number)
-    content = detail.model_dump(mode="json")
-    charge = live.elapsed(command.arrived)
     move = {
         "game_id": live.id,
         "number": number,
         "seat": stroke.seat,
-        "events": content.pop("events"),
-        "stroke": content,
-        "charge": charge,
-        "created_at": now,
+        "stroke": detail.model_dump(mode="json", exclude={"events"}),
+        "line": canonical(stroke_entry(stroke, number, live.row.carried + elapsed)),
     }
-    connection.execute(insert(moves).values(move))
-    live = games.advance(connection, context, live, stroke.game, charge, now)
-    view = live.view(connection, stroke.seat, now)
+    writing.connection.execute(insert(moves).values(move | {"created_at": writing.now}))
+    live = games.advance(writing, live, stroke.game, elapsed)
+    view = live.view(writing.connection, stroke.seat, writing.now)
     message = StrokeAnswer(game=live.id, stroke=detail, view=view, clocks=view.clocks)
     return Answer.of(200, message, etag=f'"{live.row.version}"')

@@ -4,14 +4,16 @@ import asyncio
 import contextlib
 import logging
 from collections.abc import AsyncIterator
+from dataclasses import replace
+from typing import Any
 
 from anyio.to_thread import run_sync
 from sqlalchemy import select, update
 
 from referee.game import EndReason
 from server.services import games as course
-from server.services.context import Context
-from server.services.live import RUNNING, find
+from server.services.context import Context, Writing
+from server.services.live import RUNNING, LiveGame, find
 from server.store.tables import games
 
 log = logging.getLogger("pooliad.server.timer")
@@ -56,28 +58,25 @@ def flag(context: Context) -> None:
 
 
 def _flag(context: Context, game_id: str, now: int) -> None:
-    with context.database.writing() as connection:
-        live = find(connection, game_id)
+    with context.writing() as writing:
+        live = find(writing.connection, game_id)
         deadline = live.row.deadline
         if deadline is None or deadline > now or context.is_in_hand(game_id, deadline):
             return
-        course.end_from_outside(connection, context, live, EndReason.TIME_OUT, live.game.turn, deadline)
+        at_deadline = replace(writing, now=deadline)
+        course.end_from_outside(at_deadline, live, EndReason.TIME_OUT, live.game.turn)
     context.wakeups.notify(live.agents)
 
 
 def stop_clocks(context: Context) -> None:
-    """Charge every running turn for the time until now.
-
-    The server goes down, and no clock runs while it is.
-    """
-    now = context.time.now()
-    with context.database.writing() as connection:
-        for row in connection.execute(
-            select(games).where(games.c.status == RUNNING, games.c.clock_from < now)
-        ).all():
-            used = f"used_{row.state['turn']}"
-            charged = {used: getattr(row, used) + now - row.clock_from, "clock_from": now}
-            connection.execute(update(games).where(games.c.id == row.id).values(charged))
+    """Charge every running turn for the time until now: the server goes down, and no clock runs meanwhile."""
+    with context.writing() as writing:
+        for live in _running(writing):
+            elapsed = live.elapsed(writing.now)
+            used = live.clocks.charged(live.game.turn, elapsed).used_ns
+            carried = live.row.carried + elapsed
+            values = {"used_0": used[0], "used_1": used[1], "carried": carried}
+            _update(writing, live.id, values | {"clock_from": live.row.clock_from + elapsed})
 
 
 def resume_clocks(context: Context) -> None:
@@ -85,15 +84,18 @@ def resume_clocks(context: Context) -> None:
 
     A turn that ran when the server was killed is charged nothing for it.
     """
-    now = context.time.now()
-    with context.database.writing() as connection:
-        for row in connection.execute(select(games).where(games.c.status == RUNNING)).all():
-            left = max(0, row.deadline - row.clock_from)
-            clock_from = now + context.fetch_grace
-            fresh = {
-                "delivered": False,
-                "available_at": now,
-                "clock_from": clock_from,
-                "deadline": clock_from + left,
-            }
-            connection.execute(update(games).where(games.c.id == row.id).values(fresh))
+    with context.writing() as writing:
+        clock_from = writing.now + context.fetch_grace
+        for live in _running(writing):
+            left = live.clocks.remaining_ns(live.game.turn)
+            turn = {"delivered": False, "available_at": writing.now, "clock_from": clock_from}
+            _update(writing, live.id, turn | {"deadline": clock_from + left})
+
+
+def _running(writing: Writing) -> list[LiveGame]:
+    ids = writing.connection.scalars(select(games.c.id).where(games.c.status == RUNNING)).all()
+    return [find(writing.connection, game_id) for game_id in ids]
+
+
+def _update(writing: Writing, game_id: str, values: dict[str, Any]) -> None:
+    writing.connection.execute(update(games).where(games.c.id == game_id).values(values))

@@ -52,8 +52,8 @@ def next_message(context: Context, agent: str) -> bytes | None:
     with context.database.reading() as connection:
         if _news(connection, agent) is None and _waiting_turn(connection, agent) is None:
             return None
-    with context.database.writing() as connection:
-        now = context.time.now()
+    with context.writing() as writing:
+        connection, now = writing.connection, writing.now
         if (news := _news(connection, agent)) is not None:
             this = notices.c.sequence == news.sequence
             connection.execute(update(notices).where(this).values(delivered_at=now))

@@ -88,16 +88,21 @@ games = Table(
     Column("mover", Identifier, ForeignKey("agents.id"), index=True),
     Column("used_0", BigInteger, nullable=False),
     Column("used_1", BigInteger, nullable=False),
+    Column("carried", BigInteger, nullable=False),
     Column("delivered", Boolean, nullable=False),
     Column("available_at", BigInteger, nullable=False),
     Column("clock_from", BigInteger, nullable=False),
     Column("deadline", BigInteger, index=True),
     Column("started_at", BigInteger, nullable=False),
     Column("ended_at", BigInteger),
+    Column("header", Text, nullable=False),
+    Column("ending", Text),
     UniqueConstraint("match_id", "number"),
 )
 """`mover`: whose turn it is, null when the game is over. `clock_from`: when the turn's clock starts or
-started; `deadline`: when it runs out, null when the game is over."""
+started; `deadline`: when it runs out, null when the game is over. `carried`: what of `used` the running
+turn was charged before the server stopped. `header` and `ending`: the first and the last line of the
+record."""
 
 moves = Table(
     "moves",
@@ -107,13 +112,12 @@ moves = Table(
     Column("number", Integer, nullable=False),
     Column("seat", Integer, nullable=False),
     Column("stroke", JSON, nullable=False),
-    Column("events", JSON, nullable=False),
-    Column("charge", BigInteger, nullable=False),
+    Column("line", Text, nullable=False),
     Column("created_at", BigInteger, nullable=False),
     UniqueConstraint("game_id", "number"),
 )
-"""Every stroke and decision of a game, by number from 0; `stroke` and `events` together are a `StrokeDetail`,
-`charge` the time it took off the mover's clock."""
+"""Every stroke and decision of a game, by number from 0. `stroke`: a `StrokeDetail` without its events, which
+are in `line`, the record's."""
 
 answers = Table(
     "answers",
@@ -127,10 +131,7 @@ answers = Table(
     Column("body", LargeBinary, nullable=False),
     Column("created_at", BigInteger, nullable=False),
 )
-"""The idempotency rows.
-
-What was answered to an accepted request, stored in the transaction that carried it out.
-"""
+"""The idempotency rows: what was answered to an accepted request, stored in the transaction that did it."""
 
 notices = Table(
     "notices",

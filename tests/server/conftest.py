@@ -43,9 +43,11 @@ class Running:
         announced = json.loads(line)
         assert announced["event"] == "listening"
         self.url = announced["url"]
+        self.http = httpx2.Client(base_url=self.url, timeout=PATIENCE)
 
     def stop(self, number: int = signal.SIGTERM) -> int:
         """Send a signal and wait for the end; the exit code."""
+        self.http.close()
         self.process.send_signal(number)
         self.process.wait(PATIENCE)
         assert self.process.stdout is not None
@@ -64,9 +66,11 @@ class Running:
     def log(self) -> str:
         return self.database.with_suffix(".log").read_text()
 
-    def caller(self, token: str | None = None) -> httpx2.Client:
-        headers = {"Authorization": f"Bearer {token}"} if token else {}
-        return httpx2.Client(base_url=self.url, headers=headers, timeout=PATIENCE)
+    def request(self, method: str, path: str, token: str | None = None, **options: Any) -> httpx2.Response:
+        """Send a request, with a token when one is given."""
+        if token is not None:
+            options["headers"] = {"Authorization": f"Bearer {token}"} | dict(options.get("headers", {}))
+        return self.http.request(method, path, **options)
 
 
 class Player:
@@ -75,9 +79,12 @@ class Player:
     def __init__(self, server: Running, agent_id: str, token: str) -> None:
         self.server, self.id, self.token = server, agent_id, token
 
+    def request(self, method: str, path: str, **options: Any) -> httpx2.Response:
+        """A request with the agent's token and nothing else of its own."""
+        return self.server.request(method, path, self.token, **options)
+
     def get(self, path: str, **params: Any) -> httpx2.Response:
-        with self.server.caller(self.token) as http:
-            return http.get(path, params=params)
+        return self.request("GET", path, params=params)
 
     def post(
         self, path: str, body: Any = None, *, key: str | None = None, version: Any = None
@@ -86,8 +93,7 @@ class Player:
         headers = {"Idempotency-Key": key or str(uuid.uuid4())}
         if version is not None:
             headers["If-Match"] = f'"{version}"'
-        with self.server.caller(self.token) as http:
-            return http.post(path, headers=headers, **({} if body is None else {"json": body}))
+        return self.request("POST", path, headers=headers, **({} if body is None else {"json": body}))
 
     def turn(self, wait: float = 10) -> dict[str, Any]:
         """The next message of the long poll; there must be one."""
@@ -127,8 +133,8 @@ class Table:
 
 
 def register(server: Running) -> Player:
-    with server.caller() as http:
-        response = http.post("/v1/agents", json={"name": f"player {next(_names)} {uuid.uuid4().hex[:8]}"})
+    name = f"player {next(_names)} {uuid.uuid4().hex[:8]}"
+    response = server.request("POST", "/v1/agents", json={"name": name})
     assert response.status_code == 201, response.text
     made = response.json()
     return Player(server, made["agent"]["id"], made["token"])

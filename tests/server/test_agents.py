@@ -7,8 +7,7 @@ def test_a_token_is_shown_once_and_works(server, new_player):
     player = new_player()
     assert player.token.startswith("pool_agt_")
     assert player.get("/v1/turns").status_code == 204
-    with server.caller() as http:
-        assert player.token not in http.get("/v1/agents", params={"limit": 200}).text
+    assert player.token not in server.request("GET", "/v1/agents", params={"limit": 200}).text
 
 
 def test_only_the_hash_of_a_token_is_stored(server, new_player):
@@ -27,9 +26,9 @@ def test_tokens_have_256_bits_and_differ(new_player):
 
 
 def test_a_taken_name_is_refused(server, new_player):
-    with server.caller() as http:
-        name = http.get("/v1/agents", params={"limit": 1}).json()["agents"][0]["name"]
-        response = http.post("/v1/agents", json={"name": name})
+    new_player()
+    name = server.request("GET", "/v1/agents", params={"limit": 1}).json()["agents"][0]["name"]
+    response = server.request("POST", "/v1/agents", json={"name": name})
     assert response.status_code == 409
     problem = response.json()
     assert (problem["code"], problem["field"], problem["value"]) == ("name_taken", "name", name)
@@ -55,8 +54,7 @@ def test_a_rotation_sent_again_by_the_organiser_gives_the_same_token(organiser, 
 
 def test_revocation_leaves_an_agent_without_a_token_until_the_organiser_gives_one(organiser, new_player):
     player = new_player()
-    with player.server.caller(player.token) as http:
-        assert http.delete(f"/v1/agents/{player.id}/token").status_code == 204
+    assert player.request("DELETE", f"/v1/agents/{player.id}/token").status_code == 204
     assert player.get("/v1/turns").status_code == 401
     player.token = organiser.post(f"/v1/agents/{player.id}/token").json()["token"]
     assert player.get("/v1/turns").status_code == 204
@@ -66,24 +64,21 @@ def test_nobody_touches_the_token_of_another(new_player):
     player, other = new_player(), new_player()
     response = player.post(f"/v1/agents/{other.id}/token")
     assert (response.status_code, response.json()["code"]) == (403, "forbidden")
-    with player.server.caller(player.token) as http:
-        assert http.delete(f"/v1/agents/{other.id}/token").status_code == 403
+    assert player.request("DELETE", f"/v1/agents/{other.id}/token").status_code == 403
     assert other.get("/v1/turns").status_code == 204
 
 
 def test_the_list_is_complete_in_pages(server, new_player):
     registered = [new_player().id for _ in range(3)]
     found, cursor = [], "0"
-    with server.caller() as http:
-        while cursor is not None:
-            page = http.get("/v1/agents", params={"limit": 2, "cursor": cursor}).json()
-            found += [agent["id"] for agent in page["agents"]]
-            cursor = page["next_cursor"]
+    while cursor is not None:
+        page = server.request("GET", "/v1/agents", params={"limit": 2, "cursor": cursor}).json()
+        found += [agent["id"] for agent in page["agents"]]
+        cursor = page["next_cursor"]
     assert len(found) == len(set(found))
     assert set(registered) <= set(found)
 
 
 def test_a_server_without_an_organiser_token_has_no_organiser(own_server, organiser):
     running = own_server(POOLIAD_ORGANISER_TOKEN="")
-    with running.caller(organiser.token) as http:
-        assert http.get("/v1/turns").status_code == 401
+    assert running.request("GET", "/v1/turns", organiser.token).status_code == 401

@@ -1,0 +1,47 @@
+"""News for the players: a game is over, the match is over. Each is delivered once, before any turn."""
+
+from typing import Any, Literal
+
+from sqlalchemy import Connection, Row, insert
+
+from referee.wire import GameOver, MatchOver, OutcomeView
+from server.services.live import FINISHED, LiveGame, score_of
+from server.store.tables import notices
+
+
+def game_over(connection: Connection, live: LiveGame, now: int) -> None:
+    """Tell both players, each with the own view and the revealed seed."""
+    outcome = live.game.outcome
+    assert outcome is not None
+    for seat in (0, 1):
+        message = GameOver(
+            game=live.id,
+            match=live.match.id,
+            number=live.row.number,
+            seat=seat,
+            outcome=OutcomeView.of(outcome),
+            won=None if outcome.winner is None else outcome.winner == seat,
+            score=live.score,
+            noise_seed=live.row.noise_seed,
+            record=f"/v1/games/{live.id}/record",
+            view=live.view(connection, seat, now),
+        )
+        _notify(connection, live.agents[seat], message)
+
+
+def match_over(connection: Connection, match: Row[Any], status: Literal["finished", "aborted"]) -> None:
+    """Tell both players."""
+    score = score_of(connection, match.id)
+    winner = winner_of(status, score)
+    for seat, agent in enumerate((match.seat_0, match.seat_1)):
+        message = MatchOver(match=match.id, seat=seat, status=status, winner=winner, score=score)
+        _notify(connection, agent, message)
+
+
+def winner_of(status: str, score: tuple[float, float]) -> int | None:
+    """The seat that won a match; None while it is on, when it is drawn or aborted."""
+    return int(score[1] > score[0]) if status == FINISHED and score[0] != score[1] else None
+
+
+def _notify(connection: Connection, agent: str, message: GameOver | MatchOver) -> None:
+    connection.execute(insert(notices).values(agent_id=agent, message=message.model_dump_json()))
