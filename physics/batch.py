@@ -1,0 +1,127 @@
+"""Many shots at once: ``simulate_batch``."""
+
+import dataclasses
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from physics.constants import BALL_RADIUS, N_BALLS, PLACEMENT_TOLERANCE
+from physics.engine import kernels
+from physics.errors import InvalidShot, InvalidState
+from physics.facts import FACTS_DTYPE
+from physics.parameters import parameters
+from physics.shot import FIELDS
+from physics.simulation import checked_positions
+from physics.state import TableState
+from physics.table import Table
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Batch:
+    """Results of ``simulate_batch``; row i is shot i.
+
+    Attributes:
+        positions: (n, 16, 2) float64 m, final; NaN where the ball is not on the table.
+        pocket: (n, 16) int8, the pocket; -1 on the table, -2 absent from the start.
+        status: (n,) int8 of ``Status``.
+        facts: (n,) structured array of ``FACTS_DTYPE``.
+    """
+
+    positions: NDArray[np.float64]
+    pocket: NDArray[np.int8]
+    status: NDArray[np.int8]
+    facts: NDArray[np.void]
+
+    @property
+    def duration(self) -> NDArray[np.float64]:
+        """(n,) s."""
+        return self.facts["duration"]
+
+    @property
+    def n_events(self) -> NDArray[np.int32]:
+        """(n,) number of events, the cue strike included."""
+        return self.facts["n_events"]
+
+    def __len__(self) -> int:
+        return len(self.status)
+
+    def state(self, row: int) -> TableState:
+        """Final state of one shot."""
+        return TableState.trusted(self.positions[row].copy())
+
+
+def simulate_batch(
+    table: Table, states: TableState | NDArray[np.float64], shots: ArrayLike, threads: int = 1
+) -> Batch:
+    """Simulate n shots without traces. Each has the same bits as ``simulate`` gives it, whatever ``threads``.
+
+    Args:
+        states: one ``TableState`` for all shots, or positions (n, 16, 2) in metres with NaN for absent balls.
+        shots: (n, 5) float64, columns v, phi, theta, a, b in Olympiad units.
+        threads: how many threads share the rows; the interpreter is not held meanwhile.
+
+    A shot that cannot be played is a result: its status says why, positions unchanged, no events.
+
+    Raises:
+        InvalidShot: wrong shape, or a value that is not finite; names the first bad row.
+        InvalidState: wrong shape, not finite, off the table or overlapping; names the first bad row.
+        ValueError: ``threads`` is not a positive integer.
+    """
+    if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
+        raise ValueError(f"threads = {threads!r}: must be a positive integer")
+    strokes = _checked_shots(shots)
+    n = len(strokes)
+    positions = _checked_states(table, states, n)
+    batch = Batch(
+        np.empty((n, N_BALLS, 2)), np.empty((n, N_BALLS), np.int8), np.empty(n, np.int8), np.empty(n, FACTS_DTYPE)
+    )
+    arguments = (
+        *(parameters(table), positions, strokes, batch.positions.reshape(n, -1), batch.pocket, batch.status),
+        batch.facts.view(np.int32).reshape(n, -1),
+        batch.facts.view(np.float64).reshape(n, -1),
+    )
+    run = kernels().simulate_rows
+    if threads == 1 or n < 2:
+        run(*arguments, 0, n)
+        return batch
+    edges = [n * part // threads for part in range(threads + 1)]
+    with ThreadPoolExecutor(threads) as pool:
+        for done in [pool.submit(run, *arguments, *edges[part : part + 2]) for part in range(threads)]:
+            done.result()
+    return batch
+
+
+def _checked_shots(shots: ArrayLike) -> NDArray[np.float64]:
+    try:
+        strokes = np.ascontiguousarray(shots, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InvalidShot("shots", type(shots).__name__, "must be numbers, shape (n, 5)") from None
+    if strokes.ndim != 2 or strokes.shape[1] != len(FIELDS):
+        raise InvalidShot("shots", strokes.shape, f"must have shape (n, 5), columns {FIELDS}")
+    bad = np.argwhere(~np.isfinite(strokes))
+    if len(bad):
+        row, column = bad[0].tolist()
+        raise InvalidShot(f"shots[{row}].{FIELDS[column]}", float(strokes[row, column]), "must be a finite number")
+    return strokes
+
+
+def _checked_states(
+    table: Table, states: TableState | NDArray[np.float64], n: int
+) -> NDArray[np.float64]:
+    if isinstance(states, TableState):
+        return checked_positions(table, states)
+    positions = np.ascontiguousarray(states)
+    if positions.dtype != np.float64 or positions.shape != (n, N_BALLS, 2):
+        raise InvalidState(
+            "states", (positions.dtype.name, positions.shape), f"must be float64 of shape ({n}, {N_BALLS}, 2)"
+        )
+    flat = positions.reshape(n, -1)
+    least = 2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE
+    row, ball, other = kernels().first_bad_row(parameters(table), flat, least * least, PLACEMENT_TOLERANCE)
+    if row >= 0:
+        allowed = "must be two finite numbers inside the cushion lines and outside the mouths"
+        if other >= 0:
+            allowed = f"overlaps ball {other}; centres must be at least {2.0 * BALL_RADIUS} m apart"
+        raise InvalidState(f"states[{row}][{ball}]", positions[row, ball].tolist(), allowed)
+    return flat

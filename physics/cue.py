@@ -1,0 +1,71 @@
+"""Which strokes are possible: the tip must be on the ball, and the cue must not pass through anything."""
+
+import dataclasses
+
+import numpy as np
+
+from physics.constants import BALL_RADIUS, CUSHION_NAMES
+from physics.engine import kernels
+from physics.errors import InvalidShot
+from physics.parameters import parameters
+from physics.shot import Shot
+from physics.simulation import checked_positions
+from physics.state import TableState
+from physics.status import Status
+from physics.table import Table
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Unplayable:
+    """Why a shot cannot be played.
+
+    Attributes:
+        status: the status ``simulate`` would give it. reason: the same in words, naming what is in the way.
+    """
+
+    status: Status
+    reason: str
+
+    def __str__(self) -> str:
+        return self.reason
+
+
+def check(table: Table, state: TableState, shot: Shot) -> Unplayable | None:
+    """None if the shot can be played, else why not.
+
+    Raises:
+        InvalidState: a ball lies off the table.
+    """
+    stroke = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b]])
+    number, obstacle = kernels().check_shot(parameters(table), checked_positions(table, state), stroke)
+    status = Status(number)
+    if status is Status.AT_REST:
+        return None
+    if status is not Status.CUE_OBSTRUCTED:
+        return Unplayable(status, status.explain())
+    return Unplayable(status, f"the cue is blocked by {_obstacle_name(obstacle)} at theta = {shot.theta} deg")
+
+
+def min_elevation(table: Table, state: TableState, phi: float, a: float = 0.0, b: float = 0.0) -> float:
+    """Smallest elevation at which nothing blocks the cue, deg; NaN if there is none up to the table's theta_max.
+
+    Args:
+        phi: azimuth of the stroke, deg; a, b: tip offsets, mm.
+
+    Raises:
+        InvalidShot: a parameter is not finite, or the tip is off the ball.
+        InvalidState: a ball lies off the table, or there is no cue ball.
+    """
+    shot = Shot(0.0, phi, 0.0, a, b)
+    if shot.a * shot.a + shot.b * shot.b > 1e6 * BALL_RADIUS * BALL_RADIUS:
+        raise InvalidShot("a, b", (a, b), f"must satisfy a^2 + b^2 <= R^2 with R = {1e3 * BALL_RADIUS} mm")
+    positions = checked_positions(table, state)
+    if not table.cue_test:
+        return 0.0
+    return float(kernels().elevation_needed(parameters(table), positions, shot.phi, shot.a, shot.b))
+
+
+def _obstacle_name(number: int) -> str:
+    if number < 16:
+        return f"ball {number}"
+    return "the cue ball itself" if number == 16 else f"the {CUSHION_NAMES[number - 17]} cushion"

@@ -1,0 +1,43 @@
+"""Errors of the physics: every one names the field, the value that came and what is allowed.
+
+::
+
+    PhysicsError (ValueError)
+    ├── InvalidTable    a table parameter
+    ├── InvalidState    positions of the balls
+    └── InvalidShot     parameters of a shot
+"""
+
+from typing import Any
+
+
+class PhysicsError(ValueError):
+    """Bad input to the physics.
+
+    Attributes:
+        field: name of the offending parameter, e.g. ``"v"`` or ``"positions[3]"``.
+        value: what came.
+        allowed: what is allowed, in words.
+    """
+
+    def __init__(self, field: str, value: Any, allowed: str) -> None:
+        super().__init__(f"{field} = {value!r}: {allowed}")
+        self.field = field
+        self.value = value
+        self.allowed = allowed
+
+    def __reduce__(self) -> tuple[type, tuple[str, Any, str]]:
+        """Pickle by the three arguments, so that the error crosses process borders."""
+        return type(self), (self.field, self.value, self.allowed)
+
+
+class InvalidTable(PhysicsError):
+    """A table parameter outside its range."""
+
+
+class InvalidState(PhysicsError):
+    """Ball positions that cannot be: not finite, overlapping, off the table."""
+
+
+class InvalidShot(PhysicsError):
+    """A shot parameter that is not a finite number in its range."""

@@ -1,0 +1,108 @@
+"""Events and the states of the balls after them."""
+
+import dataclasses
+from enum import IntEnum, StrEnum
+from typing import Any
+
+from physics.constants import CUSHION_NAMES, POCKET_NAMES
+
+
+class Motion(IntEnum):
+    """Motion state of a ball ([I], section 3), or why it has none."""
+
+    STATIONARY = 0
+    SPINNING = 1
+    SLIDING = 2
+    ROLLING = 3
+    POCKETED = 4
+    ABSENT = 5
+
+
+class EventKind(StrEnum):
+    """What happened: the nine event types of the paper ([I], section 4) and two it lacks."""
+
+    CUE_STRIKE = "cue_strike"
+    BALL_COLLISION = "ball_collision"
+    RAIL_COLLISION = "rail_collision"
+    POCKET_COLLISION = "pocket_collision"
+    SLIDING_ROLLING = "sliding_rolling"
+    SLIDING_SPINNING = "sliding_spinning"
+    SLIDING_STATIONARY = "sliding_stationary"
+    ROLLING_SPINNING = "rolling_spinning"
+    ROLLING_STATIONARY = "rolling_stationary"
+    SPINNING_STATIONARY = "spinning_stationary"
+    CONTACT = "contact"
+    """A touching ball was parted or brought to rest by the contact rule; see docs/physics.md."""
+
+
+KINDS: tuple[EventKind, ...] = tuple(EventKind)
+"""Kernels write a kind as its place in this tuple."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class BallState:
+    """State of one ball at one time.
+
+    Attributes:
+        ball: its number.
+        position: (x, y) m. velocity: (vx, vy) m/s. spin: (wx, wy, wz) rad/s.
+        motion: its motion state.
+    """
+
+    ball: int
+    position: tuple[float, float]
+    velocity: tuple[float, float]
+    spin: tuple[float, float, float]
+    motion: Motion
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values, for JSON."""
+        return {
+            "ball": self.ball,
+            "position": list(self.position),
+            "velocity": list(self.velocity),
+            "spin": list(self.spin),
+            "motion": self.motion.name.lower(),
+        }
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Event:
+    """One event of a shot.
+
+    Attributes:
+        index: its ordinal in the shot, from 0.
+        time: s since the strike.
+        kind: what happened.
+        ball: the ball it happened to; in a ball collision the lower number.
+        other: the other ball, the cushion (0..3 = W, E, S, N) or the pocket (0..5 = SW W NW NE E SE); else -1.
+        states: state of each ball involved, after the event.
+    """
+
+    index: int
+    time: float
+    kind: EventKind
+    ball: int
+    other: int
+    states: tuple[BallState, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values, for JSON."""
+        return {
+            "index": self.index,
+            "time": self.time,
+            "kind": self.kind.value,
+            "ball": self.ball,
+            "other": self.other,
+            "states": [state.to_dict() for state in self.states],
+        }
+
+    def __str__(self) -> str:
+        partner = ""
+        if self.kind is EventKind.BALL_COLLISION:
+            partner = f" with ball {self.other}"
+        elif self.kind is EventKind.RAIL_COLLISION:
+            partner = f" at the {CUSHION_NAMES[self.other]} cushion"
+        elif self.kind is EventKind.POCKET_COLLISION:
+            partner = f" in pocket {POCKET_NAMES[self.other]}"
+        return f"{self.time:.6f} s  ball {self.ball}  {self.kind.value.replace('_', ' ')}{partner}"

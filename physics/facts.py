@@ -1,0 +1,121 @@
+"""What rules need to know about a shot, gathered by the kernel without a trace.
+
+Every per-ball fact is the ordinal of the event that proves it (``Event.index``), or -1 when it did not happen.
+A batch holds the same fields as a structured array of ``FACTS_DTYPE``.
+"""
+
+import dataclasses
+import math
+from typing import Any, Final, Self
+
+import numpy as np
+
+from physics.constants import N_BALLS
+
+NEVER: Final = -1
+"""The ordinal of an event that did not happen."""
+
+FACTS_DTYPE: Final = np.dtype(
+    [
+        ("status", np.int32),
+        ("n_events", np.int32),
+        ("crossed_head_string", np.int32),
+        ("crossed_before_contact", np.int32),
+        ("first_contact", np.int32, (N_BALLS,)),
+        ("cushion", np.int32, (N_BALLS,)),
+        ("cushion_after_contact", np.int32, (N_BALLS,)),
+        ("pocketed", np.int32, (N_BALLS,)),
+        ("pocket", np.int32, (N_BALLS,)),
+        ("off_table", np.int32, (N_BALLS,)),
+        ("frozen_to_cushion", np.int32, (N_BALLS,)),
+        ("frozen_to_cue_ball", np.int32, (N_BALLS,)),
+        ("duration", np.float64),
+        ("first_contact_cue_ball", np.float64, (2,)),
+    ]
+)
+"""One shot's facts: 132 int32, then 3 float64. The kernel writes the two blocks by position."""
+
+N_INTEGERS: Final = 132
+N_FLOATS: Final = 3
+
+PerBall = tuple[int, ...]
+_NOBODY: PerBall = (NEVER,) * N_BALLS
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Facts:
+    """The facts of one shot.
+
+    Attributes:
+        status: ``Status`` number.
+        n_events: how many events the shot had, the cue strike included.
+        crossed_head_string: event that opens the stretch of the cue ball's path on which its centre was first
+            not behind the head string (y <= head string); at the start counts.
+        crossed_before_contact: the same, but before the first contact.
+        first_contact: (16,) the collision in which the cue ball struck this ball first; several when
+            simultaneous.
+        cushion: (16,) first rail collision of each ball. Touches slower than 1 mm/s, and touches at the start by
+            a ball frozen to that cushion, do not count.
+        cushion_after_contact: (16,) the same, counting only what follows the first contact.
+        pocketed: (16,) the pocket collision; pocket: (16,) which pocket, or -1.
+        off_table: (16,) the event by which the ball left the table.
+        frozen_to_cushion, frozen_to_cue_ball: (16,) 1 where the ball touched a cushion, the cue ball, at the start.
+        duration: s.
+        first_contact_cue_ball: (x, y) m, the cue ball's centre at first contact; NaN if there was none.
+    """
+
+    status: int
+    n_events: int
+    crossed_head_string: int
+    crossed_before_contact: int
+    first_contact: PerBall
+    cushion: PerBall
+    cushion_after_contact: PerBall
+    pocketed: PerBall
+    pocket: PerBall
+    off_table: PerBall
+    frozen_to_cushion: PerBall
+    frozen_to_cue_ball: PerBall
+    duration: float
+    first_contact_cue_ball: tuple[float, float]
+
+    @classmethod
+    def none(cls) -> Self:
+        """The facts of a stroke in which nothing happened: the base for building facts by hand."""
+        nothing_frozen = (0,) * N_BALLS
+        return cls(
+            status=0,
+            n_events=0,
+            crossed_head_string=NEVER,
+            crossed_before_contact=NEVER,
+            first_contact=_NOBODY,
+            cushion=_NOBODY,
+            cushion_after_contact=_NOBODY,
+            pocketed=_NOBODY,
+            pocket=_NOBODY,
+            off_table=_NOBODY,
+            frozen_to_cushion=nothing_frozen,
+            frozen_to_cue_ball=nothing_frozen,
+            duration=0.0,
+            first_contact_cue_ball=(math.nan, math.nan),
+        )
+
+    @classmethod
+    def from_record(cls, record: Any) -> Self:
+        """Facts from one row of a ``FACTS_DTYPE`` array, e.g. ``batch.facts[i]``."""
+        return cls(*(_plain(value) for value in record.item()))
+
+    @property
+    def struck_first(self) -> tuple[int, ...]:
+        """Balls the cue ball struck first, ascending; empty when it struck none."""
+        return tuple(ball for ball, event in enumerate(self.first_contact) if event != NEVER)
+
+    @property
+    def pocketed_in_order(self) -> tuple[tuple[int, int, int], ...]:
+        """(ball, pocket, event ordinal) of every pocketed ball, in order of events."""
+        events = sorted((event, ball) for ball, event in enumerate(self.pocketed) if event != NEVER)
+        return tuple((ball, self.pocket[ball], event) for event, ball in events)
+
+
+def _plain(value: Any) -> Any:
+    return tuple(value.tolist()) if isinstance(value, np.ndarray) else value

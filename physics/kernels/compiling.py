@@ -1,0 +1,99 @@
+"""How kernels are compiled, and the memory they work on.
+
+Kernels address flat memory: compiled, through raw pointers (an array argument would cost reference counts and
+index wrap-around in the innermost functions); interpreted (``NUMBA_DISABLE_JIT=1``), through array views.
+The helpers below are the only difference between the two.
+
+Reproducible bits need ``fastmath`` off and no fused multiply-add, which is numba's default; and in kernels no
+``**``, ``hypot``, ``pow``, ``numpy.sum`` or ``numpy.linalg``, whose bits differ from machine to machine.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numba
+from llvmlite import ir
+from numba.core import types
+from numba.extending import intrinsic
+
+INTERPRETED: bool = bool(numba.config.DISABLE_JIT)
+"""Whether kernels run as plain Python."""
+
+kernel = numba.njit(error_model="numpy", nogil=True)
+"""Decorator of an inner kernel: compiled into the entry points that use it."""
+
+small_kernel = numba.njit(error_model="numpy", nogil=True, forceinline=True)
+"""Decorator of a kernel of a few operations: always inlined."""
+
+
+def _at(builder: Any, address: Any, index: Any, item: Any) -> Any:
+    return builder.gep(builder.inttoptr(address, ir.PointerType(item)), [index])
+
+
+def _loader(item: Any, result: Any) -> Any:
+    def load(_typing: Any, memory: Any, index: Any) -> Any:
+        def code(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+            return builder.load(_at(builder, arguments[0], arguments[1], item))
+
+        return result(types.intp, types.intp), code
+
+    return intrinsic(load)
+
+
+def _storer(item: Any, argument: Any) -> Any:
+    def store(_typing: Any, memory: Any, index: Any, value: Any) -> Any:
+        def code(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+            value = arguments[2]
+            if value.type != item:
+                value = builder.trunc(value, item)
+            builder.store(value, _at(builder, arguments[0], arguments[1], item))
+            return context.get_dummy_value()
+
+        return types.void(types.intp, types.intp, argument), code
+
+    return intrinsic(store)
+
+
+def _row_view(array: Any, index: int) -> Any:
+    return array[index]
+
+
+def _row_address(array: Any, index: int) -> Any:
+    return array.ctypes.data + index * array.strides[0]
+
+
+def _plain_load(memory: Any, index: int) -> float:
+    return float(memory[index])
+
+
+def _plain_load_integer(memory: Any, index: int) -> int:
+    return int(memory[index])
+
+
+def _plain_store(memory: Any, index: int, value: Any) -> None:
+    memory[index] = value
+
+
+_double, _int32, _int64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
+
+row: Callable[[Any, int], Any] = _row_view if INTERPRETED else numba.njit(nogil=True)(_row_address)
+"""``row(array, index)``: memory of one row of a C-contiguous array (n, m)."""
+
+load: Callable[[Any, int], float] = _plain_load if INTERPRETED else _loader(_double, types.float64)
+"""``load(memory, index)``: a float64."""
+
+store: Callable[[Any, int, float], None] = _plain_store if INTERPRETED else _storer(_double, types.float64)
+"""``store(memory, index, value)``: a float64."""
+
+load_integer: Callable[[Any, int], int] = (
+    _plain_load_integer if INTERPRETED else _loader(_int64, types.int64)
+)
+"""``load_integer(memory, index)``: an int64."""
+
+store_integer: Callable[[Any, int, int], None] = (
+    _plain_store if INTERPRETED else _storer(_int64, types.int64)
+)
+"""``store_integer(memory, index, value)``: an int64."""
+
+store_fact: Callable[[Any, int, int], None] = _plain_store if INTERPRETED else _storer(_int32, types.int64)
+"""``store_fact(memory, index, value)``: an int32."""

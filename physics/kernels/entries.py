@@ -1,0 +1,191 @@
+"""Entry points: what the Python layer calls. Arrays in, arrays out; compiled once and cached.
+
+Every array is C-contiguous and two-dimensional, one shot a row: ``p`` (1, P_SIZE) float64; ``positions`` (n, 32) or
+(1, 32) for all; ``states`` (1, 128); ``shots`` (n, 5); ``facts`` (n, 138) int32 and ``facts_float`` (n, 69) float64
+are two views of one structured array; ``trace`` (1, rows * TRACE_WIDTH).
+"""
+
+import numba
+import numpy as np
+
+from physics.kernels.advance import advance
+from physics.kernels.compiling import kernel, load, load_integer, row, small_kernel, store
+from physics.kernels.detect.contact import contact
+from physics.kernels.detect.line import may_lie
+from physics.kernels.layout import (
+    BALL_COLLISION,
+    F_POCKET,
+    K_SIZE,
+    LANES,
+    MOTION,
+    N_EVENTS,
+    P_HALF_X,
+    P_HALF_Y,
+    POCKETED,
+    SINCE,
+    STATE_WIDTH,
+    T_BALL,
+    T_FIRST,
+    T_KIND,
+    T_OTHER,
+    T_SECOND,
+    T_TIME,
+    TRACE_WIDTH,
+    W_SIZE,
+    VX,
+    X,
+    Y,
+)
+from physics.kernels.loop import go_on, place, play, put_away, restore
+from physics.kernels.recording import write_state
+from physics.kernels.resolve.cloth import begin
+from physics.kernels.strike import MILLIMETRE, lowest_elevation, obstacle, unplayable
+
+entry = numba.njit(error_model="numpy", nogil=True, cache=True)
+
+ON_TABLE, ABSENT_FROM_START = -1, -2
+"""Values of a batch's ``pocket`` for a ball that was not pocketed."""
+
+
+@small_kernel
+def collect(p, w, k, positions, final):
+    """Write where the balls lie, in the table's frame; a ball that never moved keeps the bits it came with."""
+    for i in range(LANES):
+        x, y = np.nan, np.nan
+        if load_integer(k, MOTION + i) < POCKETED:
+            x, y = load(positions, 2 * i), load(positions, 2 * i + 1)
+            if load(w, X + i) != x - load(p, P_HALF_X) or load(w, Y + i) != y - load(p, P_HALF_Y):
+                x, y = load(w, X + i) + load(p, P_HALF_X), load(w, Y + i) + load(p, P_HALF_Y)
+        store(final, 2 * i, x)
+        store(final, 2 * i + 1, y)
+
+
+@entry
+def simulate_rows(p, positions, shots, final, pockets, status, facts, facts_float, first, last):
+    """Simulate shots ``first`` to ``last`` - 1. ``pockets`` (n, 16) int8 and ``status`` (n,) int8 are filled too."""
+    w = np.empty((1, W_SIZE))
+    k = np.empty((1, K_SIZE), np.int64)
+    table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
+    shared = positions.shape[0] == 1
+    for n in range(first, last):
+        at = row(positions, 0 if shared else n)
+        fact = row(facts, n)
+        status[n] = play(
+            table, floats, integers, fact, row(facts_float, n), floats, 0, at, row(shots, n)
+        )
+        collect(table, floats, integers, at, row(final, n))
+        for i in range(LANES):
+            absent = positions[0 if shared else n, 2 * i] != positions[0 if shared else n, 2 * i]
+            pockets[n, i] = ABSENT_FROM_START if absent else facts[n, F_POCKET + i]
+
+
+@entry
+def simulate_one(p, positions, shot, final, facts, facts_float, trace, rows):
+    """Simulate one shot with room for ``rows`` events in the trace; number of events it had."""
+    w = np.empty((1, W_SIZE))
+    k = np.empty((1, K_SIZE), np.int64)
+    table, floats, integers, at = row(p, 0), row(w, 0), row(k, 0), row(positions, 0)
+    play(table, floats, integers, row(facts, 0), row(facts_float, 0), row(trace, 0), rows, at, row(shot, 0))
+    collect(table, floats, integers, at, row(final, 0))
+    return k[0, N_EVENTS]
+
+
+@entry
+def resume_one(p, states, final, facts, facts_float, trace, rows):
+    """Go on from ``states`` in motion; number of events. Positions of ``final`` in the table's frame."""
+    w = np.empty((1, W_SIZE))
+    k = np.empty((1, K_SIZE), np.int64)
+    start = np.empty((1, 2 * LANES))
+    for i in range(LANES):
+        start[0, 2 * i] = states[0, STATE_WIDTH * i]
+        start[0, 2 * i + 1] = states[0, STATE_WIDTH * i + 1]
+    table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
+    go_on(table, floats, integers, row(facts, 0), row(facts_float, 0), row(trace, 0), rows, row(states, 0))
+    collect(table, floats, integers, row(start, 0), row(final, 0))
+    return k[0, N_EVENTS]
+
+
+@kernel
+def take_state(p, w, k, memory, at, i, time):
+    """Put ball ``i`` into a state of the trace, anchored at ``time``."""
+    store(w, X + i, load(memory, at))
+    store(w, Y + i, load(memory, at + 1))
+    for n in range(5):
+        store(w, VX + n * LANES + i, load(memory, at + 2 + n))
+    store(w, SINCE + i, time)
+    motion = int(load(memory, at + 7))
+    if motion >= POCKETED:
+        put_away(w, k, i, motion)
+    else:
+        begin(p, w, k, i, motion)
+
+
+@entry
+def state_at(p, states, trace, rows, time, out):
+    """States of all balls at ``time``, from the states at the start and the trace; (1, 128), from the centre."""
+    w = np.empty((1, W_SIZE))
+    k = np.empty((1, K_SIZE), np.int64)
+    table, floats, integers, events = row(p, 0), row(w, 0), row(k, 0), row(trace, 0)
+    restore(table, floats, integers, row(states, 0))
+    last = np.full(LANES, -1)
+    for n in range(rows):
+        start = n * TRACE_WIDTH
+        if trace[0, start + T_TIME] > time:
+            break
+        last[int(trace[0, start + T_BALL])] = start + T_FIRST
+        if int(trace[0, start + T_KIND]) == BALL_COLLISION:
+            last[int(trace[0, start + T_OTHER])] = start + T_SECOND
+    for i in range(LANES):
+        if last[i] >= 0:
+            since = trace[0, last[i] // TRACE_WIDTH * TRACE_WIDTH + T_TIME]
+            take_state(table, floats, integers, events, last[i], i, since)
+        if load_integer(integers, MOTION + i) < POCKETED:
+            advance(table, floats, integers, i, time)
+        write_state(floats, integers, i, row(out, 0), i * STATE_WIDTH)
+
+
+@entry
+def check_shot(p, positions, shot):
+    """(status, obstacle) of a shot: 0 and -1 when it can be played."""
+    w = np.empty((1, W_SIZE))
+    k = np.empty((1, K_SIZE), np.int64)
+    table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
+    place(table, floats, integers, row(positions, 0))
+    v, phi, theta = shot[0, 0], shot[0, 1], shot[0, 2]
+    a, b = shot[0, 3] * MILLIMETRE, shot[0, 4] * MILLIMETRE
+    status = unplayable(table, floats, integers, v, phi, theta, a, b)
+    return status, obstacle(table, floats, integers, phi, theta, a, b) if status == 1 else -1
+
+
+@entry
+def elevation_needed(p, positions, phi, a, b):
+    """Smallest free elevation in deg, NaN if none; a and b in mm, on the ball."""
+    w = np.empty((1, W_SIZE))
+    k = np.empty((1, K_SIZE), np.int64)
+    table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
+    place(table, floats, integers, row(positions, 0))
+    return lowest_elevation(table, floats, integers, phi, a * MILLIMETRE, b * MILLIMETRE)
+
+
+@entry
+def time_of_contact(cx, cy, bx, by, ax, ay, t_max, distance):
+    """Earliest contact in [0, t_max], NaN if none: the loop's solver."""
+    return contact(cx, cy, bx, by, ax, ay, t_max, t_max, distance)
+
+
+@entry
+def first_bad_row(p, positions, least_squared, slack):
+    """(row, ball, other) of the first state with a bad place or an overlap (then ``other`` >= 0); (-1, -1, -1)."""
+    table = row(p, 0)
+    for n in range(positions.shape[0]):
+        for i in range(LANES):
+            x, y = positions[n, 2 * i], positions[n, 2 * i + 1]
+            if x != x and y != y:
+                continue
+            if not may_lie(table, x - load(table, P_HALF_X), y - load(table, P_HALF_Y), slack):
+                return n, i, -1
+            for j in range(i):
+                dx, dy = x - positions[n, 2 * j], y - positions[n, 2 * j + 1]
+                if dx * dx + dy * dy < least_squared:
+                    return n, i, j
+    return -1, -1, -1

@@ -1,0 +1,1 @@
+"""What an event does: one file per physical interaction."""

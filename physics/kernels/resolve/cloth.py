@@ -1,0 +1,117 @@
+"""Ball and cloth: which motion state a ball is in, its acceleration, and when the state ends ([I], section 3)."""
+
+import math
+
+from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store, store_integer
+from physics.kernels.layout import (
+    END,
+    FROZEN,
+    HX,
+    HY,
+    KIND,
+    MOTION,
+    NEXT,
+    P_HISTORICAL,
+    P_NO_SLIP,
+    P_RADIUS,
+    P_ROLL,
+    P_SLIDE,
+    P_SPIN,
+    ROLLING,
+    SINCE,
+    SLIDING,
+    SPINNING,
+    STATIONARY,
+    TRANSITION,
+    VX,
+    VY,
+    WX,
+    WY,
+    WZ,
+)
+from physics.kernels.layout import ROLLING_SPINNING, ROLLING_STATIONARY, SLIDING_ROLLING
+from physics.kernels.layout import SLIDING_SPINNING, SLIDING_STATIONARY, SPINNING_STATIONARY
+
+
+@small_kernel
+def classify(p, vx, vy, wx, wy, wz):
+    """Motion state of a ball on the cloth from its velocity and spin."""
+    limit = load(p, P_NO_SLIP)
+    radius = load(p, P_RADIUS)
+    ux = vx - radius * wy
+    uy = vy + radius * wx
+    moves = vx * vx + vy * vy > limit * limit
+    slips = ux * ux + uy * uy > limit * limit
+    if slips and (moves or load(p, P_HISTORICAL) == 0.0):
+        return SLIDING
+    if moves:
+        return ROLLING
+    if wz != 0.0:
+        return SPINNING
+    return STATIONARY
+
+
+@kernel
+def begin(p, w, k, i, motion):
+    """Put ball ``i``, anchored where it is, into ``motion``: its acceleration and the time the state ends."""
+    store_integer(k, MOTION + i, motion)
+    hx = 0.0
+    hy = 0.0
+    lasts = math.inf
+    if motion == SLIDING:
+        radius = load(p, P_RADIUS)
+        ux = load(w, VX + i) - radius * load(w, WY + i)
+        uy = load(w, VY + i) + radius * load(w, WX + i)
+        slip = math.sqrt(ux * ux + uy * uy)
+        friction = load(p, P_SLIDE)
+        pull = -0.5 * friction / slip
+        hx = pull * ux
+        hy = pull * uy
+        lasts = 2.0 * slip / (7.0 * friction)
+    elif motion == ROLLING:
+        vx = load(w, VX + i)
+        vy = load(w, VY + i)
+        radius = load(p, P_RADIUS)
+        store(w, WX + i, -vy / radius)
+        store(w, WY + i, vx / radius)
+        speed = math.sqrt(vx * vx + vy * vy)
+        friction = load(p, P_ROLL)
+        pull = -0.5 * friction / speed
+        hx = pull * vx
+        hy = pull * vy
+        lasts = speed / friction
+    else:
+        store(w, VX + i, 0.0)
+        store(w, VY + i, 0.0)
+        store(w, WX + i, 0.0)
+        store(w, WY + i, 0.0)
+        if motion == SPINNING:
+            lasts = abs(load(w, WZ + i)) / load(p, P_SPIN)
+    store(w, HX + i, hx)
+    store(w, HY + i, hy)
+    store(w, END + i, load(w, SINCE + i) + lasts)
+
+
+@kernel
+def transition(p, w, k, i):
+    """End the motion state of ball ``i``, already advanced to the end of it; the kind of event it is."""
+    motion = load_integer(k, MOTION + i)
+    wz = load(w, WZ + i)
+    if motion == SLIDING:
+        vx = load(w, VX + i)
+        vy = load(w, VY + i)
+        limit = load(p, P_NO_SLIP)
+        if vx * vx + vy * vy > limit * limit:
+            begin(p, w, k, i, ROLLING)
+            return SLIDING_ROLLING
+        if wz != 0.0:
+            begin(p, w, k, i, SPINNING)
+            return SLIDING_SPINNING
+        begin(p, w, k, i, STATIONARY)
+        return SLIDING_STATIONARY
+    if motion == ROLLING and wz != 0.0:
+        begin(p, w, k, i, SPINNING)
+        return ROLLING_SPINNING
+    store(w, WZ + i, 0.0)
+    begin(p, w, k, i, STATIONARY)
+    return ROLLING_STATIONARY if motion == ROLLING else SPINNING_STATIONARY

@@ -1,0 +1,157 @@
+"""The contact rule: what happens at one instant to balls that touch one another and cushions.
+
+Pairwise impulses in some order are no answer: which ball of a struck rack moves would depend on numbering. The rule
+acts in rounds, each from one common set of velocities (docs/physics.md, "Contacts"):
+
+1. balls: all touching pairs approaching faster than SLOW_APPROACH act together (impulses.py);
+2. cushions, only when no pair approaches;
+3. resting: pairs and cushions that would meet again within REST_TIME are parted or held (resting.py).
+
+Nothing looks at ball numbers, left or right. Every round parts what approached by at least SLOW_APPROACH, and a pair
+left alone meets at most once in REST_TIME: it ends.
+"""
+
+from physics.kernels.compiling import kernel, load, load_integer, store_integer
+from physics.kernels.layout import (
+    BALL_COLLISION,
+    CLOSING,
+    CONTACT,
+    CONTACT_SEEN,
+    FROZEN,
+    HX,
+    HY,
+    LANES,
+    N_PAIRS,
+    PAIRS,
+    RAIL_COLLISION,
+    VX,
+    VY,
+    WX,
+    WY,
+    WZ,
+)
+from physics.kernels.recording import CUE_BALL, note_contact, note_cushion, record
+from physics.kernels.resolve.cloth import begin, classify
+from physics.kernels.resolve.cushion import hold, rebound
+from physics.kernels.resolve.impulses import push_pairs, settle_slow_pairs
+from physics.kernels.resolve.resting import energy, part_pressed_pairs, returns_at_once, scale_down
+from physics.kernels.resolve.touching import NO_CUSHION, gather, touched_cushion, towards_cushion
+from physics.kernels.tolerances import ROUND_LIMIT, SOFT_CUSHION
+
+FAILED = -1
+"""Returned instead of a bit set when ROUND_LIMIT was reached."""
+
+
+@kernel
+def restate(p, w, k, members):
+    """Give each member the motion state its velocity and spin call for."""
+    for i in range(LANES):
+        if members >> i & 1:
+            motion = classify(
+                p, load(w, VX + i), load(w, VY + i), load(w, WX + i), load(w, WY + i), load(w, WZ + i)
+            )
+            begin(p, w, k, i, motion)
+
+
+@kernel
+def free_from_cushions(w, k, members):
+    """Forget that a ball was frozen to a cushion at the start once it is leaving it."""
+    for i in range(LANES):
+        frozen = load_integer(k, FROZEN + i) - 1
+        if members >> i & 1 and frozen >= 0:
+            speed = towards_cushion(w, frozen, VX, VY, i)
+            if speed < 0.0 or (speed == 0.0 and towards_cushion(w, frozen, HX, HY, i) < 0.0):
+                store_integer(k, FROZEN + i, 0)
+
+
+@kernel
+def report_collisions(p, w, k, facts, facts_float, trace, time):
+    """Record the pairs that acted in this round, with the states after it; bit set of the balls involved."""
+    involved = 0
+    first = load_integer(k, CONTACT_SEEN) == 0
+    for n in range(load_integer(k, N_PAIRS)):
+        if load(w, CLOSING + n) > 0.0:
+            pair = load_integer(k, PAIRS + n)
+            i, j = pair // LANES, pair % LANES
+            event = record(w, k, trace, time, BALL_COLLISION, i, j)
+            involved |= 1 << i | 1 << j
+            if i == CUE_BALL and first:
+                store_integer(k, CONTACT_SEEN, 1)
+                note_contact(p, w, facts, facts_float, j, event)
+    return involved
+
+
+@kernel
+def rebound_approaching(p, w, k, facts, trace, members, time):
+    """Rail collisions of the members that approach a cushion faster than SOFT_CUSHION; bit set of them."""
+    changed = 0
+    for i in range(LANES):
+        if members >> i & 1:
+            cushion = touched_cushion(p, w, k, i)
+            if cushion != NO_CUSHION and towards_cushion(w, cushion, VX, VY, i) > SOFT_CUSHION:
+                rebound(p, w, i, cushion)
+                restate(p, w, k, 1 << i)
+                event = record(w, k, trace, time, RAIL_COLLISION, i, cushion)
+                if load_integer(k, FROZEN + i) - 1 != cushion:
+                    note_cushion(k, facts, i, event)
+                changed |= 1 << i
+    return changed
+
+
+@kernel
+def hold_at_cushions(p, w, k, members, also_returning):
+    """Hold the members that approach a cushion softly, or whose own acceleration brings them back at once.
+
+    Returns the bit set of them; ``also_returning`` asks for the second kind.
+    """
+    changed = 0
+    for i in range(LANES):
+        if members >> i & 1:
+            cushion = touched_cushion(p, w, k, i)
+            if cushion != NO_CUSHION:
+                soft = 0.0 < towards_cushion(w, cushion, VX, VY, i) <= SOFT_CUSHION
+                if soft or (also_returning and returns_at_once(w, i, cushion)):
+                    hold(p, w, i, cushion)
+                    changed |= 1 << i
+    return changed
+
+
+@kernel
+def settle(p, w, k, facts, facts_float, trace, seeds, time):
+    """Resolve the touching cluster of the balls in ``seeds`` at ``time``.
+
+    Returns the bit set of all members, anchored at ``time`` in their new motion states, or FAILED.
+    """
+    members = gather(p, w, k, facts, seeds, time)
+    quiet = 0  # balls changed since their last event
+    allowed = -1.0  # energy before step 3
+    settled = False
+    for _ in range(ROUND_LIMIT):
+        if push_pairs(p, w, k, members) != 0:
+            restate(p, w, k, members)
+            quiet &= ~report_collisions(p, w, k, facts, facts_float, trace, time)
+            continue
+        rebounding = rebound_approaching(p, w, k, facts, trace, members, time)
+        held = hold_at_cushions(p, w, k, members, False)
+        quiet = quiet & ~rebounding | held
+        if rebounding | held:
+            continue
+        quiet |= settle_slow_pairs(w, k, members)
+        restate(p, w, k, members)
+        if allowed < 0.0:
+            allowed = energy(p, w, members)
+        changed = part_pressed_pairs(p, w, k, members) | hold_at_cushions(p, w, k, members, True)
+        quiet |= changed
+        if changed == 0:
+            settled = True
+            break
+    if not settled:
+        return FAILED
+    if scale_down(p, w, members, allowed):
+        quiet = members
+        restate(p, w, k, members)
+    free_from_cushions(w, k, members)
+    for i in range(LANES):
+        if quiet >> i & 1:
+            record(w, k, trace, time, CONTACT, i, -1)
+    return members

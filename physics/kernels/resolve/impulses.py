@@ -1,0 +1,174 @@
+"""Step 1 of the contact rule: simultaneous impulses between touching balls (docs/physics.md, eq. 26-28)."""
+
+from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store, store_integer
+from physics.kernels.layout import (
+    CHANGE,
+    CLOSING,
+    LANES,
+    LINKS,
+    MOTION,
+    N_PAIRS,
+    P_E_BALL,
+    P_HISTORICAL,
+    PAIRS,
+    STATIONARY,
+    VX,
+    VY,
+    WX,
+    WY,
+    WZ,
+)
+from physics.kernels.resolve.ball_ball import add, approach, collide, collide_historically, normal, part, rub
+from physics.kernels.tolerances import SLOW_APPROACH
+
+
+@kernel
+def select_pairs(w, k):
+    """Note how fast each touching pair closes, 0 unless faster than SLOW_APPROACH; how many act."""
+    for i in range(LANES):
+        store_integer(k, LINKS + i, 0)
+    acting = 0
+    for n in range(load_integer(k, N_PAIRS)):
+        pair = load_integer(k, PAIRS + n)
+        i, j = pair // LANES, pair % LANES
+        nx, ny, _ = normal(w, i, j)
+        closing = approach(w, i, j, nx, ny)
+        if closing > SLOW_APPROACH:
+            store(w, CLOSING + n, closing)
+            store_integer(k, LINKS + i, load_integer(k, LINKS + i) + 1)
+            store_integer(k, LINKS + j, load_integer(k, LINKS + j) + 1)
+            acting += 1
+        else:
+            store(w, CLOSING + n, 0.0)
+    return acting
+
+
+@kernel
+def linked_to(w, k, pair):
+    """Bit set of the balls linked to a pair through acting pairs."""
+    group = 1 << (pair // LANES) | 1 << (pair % LANES)
+    before = 0
+    while group != before:
+        before = group
+        for n in range(load_integer(k, N_PAIRS)):
+            other = load_integer(k, PAIRS + n)
+            both = 1 << (other // LANES) | 1 << (other % LANES)
+            if load(w, CLOSING + n) > 0.0 and group & both:
+                group |= both
+    return group
+
+
+@small_kernel
+def clear_changes(w):
+    """Set the changes of a round to zero."""
+    for n in range(CHANGE + VX, CHANGE + WZ + LANES):
+        store(w, n, 0.0)
+
+
+@small_kernel
+def apply_changes(w, members, scale):
+    """Add the changes of a round, times ``scale``, to the velocities and spins of ``members``."""
+    for i in range(LANES):
+        if members >> i & 1:
+            for quantity in (VX, VY, WX, WY, WZ):
+                add(w, quantity + i, scale * load(w, CHANGE + quantity + i))
+
+
+@kernel
+def push_group(p, w, k, group):
+    """Normal impulses of a group of linked pairs; each pair's closing speed becomes its normal change of velocity.
+
+    D is the sum of the pairs' plastic changes of velocity; lambda = -(v.D)/(D.D) makes their common action keep
+    the energy, and (1 + e) lambda D is the change.
+    """
+    clear_changes(w)
+    for n in range(load_integer(k, N_PAIRS)):
+        closing = load(w, CLOSING + n)
+        pair = load_integer(k, PAIRS + n)
+        i, j = pair // LANES, pair % LANES
+        if closing > 0.0 and group >> i & 1:
+            nx, ny, _ = normal(w, i, j)
+            part(w, i, j, nx, ny, 0.5 * closing, CHANGE)
+    work = 0.0
+    size = 0.0
+    for i in range(LANES):
+        dx, dy = load(w, CHANGE + VX + i), load(w, CHANGE + VY + i)
+        work += load(w, VX + i) * dx + load(w, VY + i) * dy
+        size += dx * dx + dy * dy
+    scale = -(1.0 + load(p, P_E_BALL)) * work / size
+    apply_changes(w, group, scale)
+    for n in range(load_integer(k, N_PAIRS)):
+        i = load_integer(k, PAIRS + n) // LANES
+        if group >> i & 1:
+            store(w, CLOSING + n, 0.5 * scale * load(w, CLOSING + n))
+
+
+@kernel
+def rub_linked(p, w, k, members):
+    """Friction of all linked pairs at once, from the slips their normal impulses left."""
+    clear_changes(w)
+    for n in range(load_integer(k, N_PAIRS)):
+        pair = load_integer(k, PAIRS + n)
+        i, j = pair // LANES, pair % LANES
+        share = max(load_integer(k, LINKS + i), load_integer(k, LINKS + j))
+        change = load(w, CLOSING + n)
+        if change > 0.0 and share > 1:
+            nx, ny, _ = normal(w, i, j)
+            rub(p, w, i, j, nx, ny, change, float(share), CHANGE)
+    apply_changes(w, members, 1.0)
+
+
+@small_kernel
+def push_alone(p, w, k, i, j, closing):
+    """The collision of two balls that share it with no other."""
+    nx, ny, _ = normal(w, i, j)
+    if load(p, P_HISTORICAL) == 0.0:
+        collide(p, w, i, j, nx, ny, closing)
+    elif load_integer(k, MOTION + i) == STATIONARY:
+        collide_historically(p, w, j, i, -nx, -ny, True)
+    else:
+        collide_historically(p, w, i, j, nx, ny, load_integer(k, MOTION + j) == STATIONARY)
+
+
+@kernel
+def push_pairs(p, w, k, members):
+    """Let all touching pairs that approach act together; how many there were."""
+    acting = select_pairs(w, k)
+    if acting == 0:
+        return 0
+    done = 0
+    joint = False
+    for n in range(load_integer(k, N_PAIRS)):
+        pair = load_integer(k, PAIRS + n)
+        i, j = pair // LANES, pair % LANES
+        closing = load(w, CLOSING + n)
+        if closing > 0.0 and done >> i & 1 == 0:
+            if load_integer(k, LINKS + i) == 1 and load_integer(k, LINKS + j) == 1:
+                push_alone(p, w, k, i, j, closing)
+                done |= 1 << i | 1 << j
+            else:
+                group = linked_to(w, k, pair)
+                push_group(p, w, k, group)
+                done |= group
+                joint = True
+    if joint:
+        rub_linked(p, w, k, members)
+    return acting
+
+
+@kernel
+def settle_slow_pairs(w, k, members):
+    """Give touching balls that approach by SLOW_APPROACH or less their mean normal speed; bit set of those changed."""
+    changed = 0
+    clear_changes(w)
+    for n in range(load_integer(k, N_PAIRS)):
+        pair = load_integer(k, PAIRS + n)
+        i, j = pair // LANES, pair % LANES
+        nx, ny, _ = normal(w, i, j)
+        closing = approach(w, i, j, nx, ny)
+        if closing > 0.0:
+            part(w, i, j, nx, ny, 0.5 * closing, CHANGE)
+            changed |= 1 << i | 1 << j
+    if changed != 0:
+        apply_changes(w, members, 1.0)
+    return changed

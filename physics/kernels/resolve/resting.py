@@ -1,0 +1,94 @@
+"""Step 3 of the contact rule: contacts that would come back at once (docs/physics.md, eq. 29-31)."""
+
+import math
+
+from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store
+from physics.kernels.layout import (
+    CHANGE,
+    HX,
+    HY,
+    LANES,
+    N_PAIRS,
+    P_RADIUS,
+    PAIRS,
+    VX,
+    VY,
+    WX,
+    WY,
+    WZ,
+)
+from physics.kernels.resolve.ball_ball import approach, normal, part
+from physics.kernels.resolve.impulses import apply_changes, clear_changes
+from physics.kernels.resolve.touching import towards_cushion
+from physics.kernels.tolerances import PRESSING, REST_TIME, SLOW_APPROACH
+
+PARTING_SLACK = 1e-3 * SLOW_APPROACH
+"""m/s. A pair that opens slower than it should by less than this is left: the rounding of its velocities (1e-15 m/s)
+would ask for another round for ever."""
+
+STOP_BELOW = 0.5
+"""A cluster whose energy would have to fall below this share of itself stops instead."""
+
+
+@small_kernel
+def returns_at_once(w, i, cushion):
+    """Whether ball ``i``'s own acceleration brings it back to a cushion it touches within REST_TIME."""
+    half = towards_cushion(w, cushion, HX, HY, i)
+    return half > 0.0 and -towards_cushion(w, cushion, VX, VY, i) < half * REST_TIME
+
+
+@small_kernel
+def pressing(p, w, i, j, nx, ny):
+    """Acceleration at which the gap between touching balls closes, m/s^2: A = -n.(a2 - a1) - |v_t|^2 / 2R."""
+    ax = 2.0 * (load(w, HX + j) - load(w, HX + i))
+    ay = 2.0 * (load(w, HY + j) - load(w, HY + i))
+    vt = (load(w, VY + j) - load(w, VY + i)) * nx - (load(w, VX + j) - load(w, VX + i)) * ny
+    return -(nx * ax + ny * ay) - vt * vt / (2.0 * load(p, P_RADIUS))
+
+
+@kernel
+def part_pressed_pairs(p, w, k, members):
+    """Part every touching pair that would meet again within REST_TIME, all at once; bit set of those changed."""
+    changed = 0
+    for n in range(load_integer(k, N_PAIRS)):
+        pair = load_integer(k, PAIRS + n)
+        i, j = pair // LANES, pair % LANES
+        nx, ny, _ = normal(w, i, j)
+        press = pressing(p, w, i, j, nx, ny)
+        opening = -approach(w, i, j, nx, ny)
+        wanted = max(0.5 * press * REST_TIME, 2.0 * SLOW_APPROACH)
+        if press > PRESSING and opening < 0.5 * press * REST_TIME and opening < wanted - PARTING_SLACK:
+            if changed == 0:
+                clear_changes(w)
+            part(w, i, j, nx, ny, 0.5 * (wanted - opening), CHANGE)
+            changed |= 1 << i | 1 << j
+    if changed != 0:
+        apply_changes(w, members, 1.0)
+    return changed
+
+
+@kernel
+def energy(p, w, members):
+    """Kinetic energy of ``members`` per ball mass, m^2/s^2."""
+    inertia = 0.4 * load(p, P_RADIUS) * load(p, P_RADIUS)
+    twice = 0.0
+    for i in range(LANES):
+        if members >> i & 1:
+            vx, vy = load(w, VX + i), load(w, VY + i)
+            wx, wy, wz = load(w, WX + i), load(w, WY + i), load(w, WZ + i)
+            twice += vx * vx + vy * vy + inertia * (wx * wx + wy * wy + wz * wz)
+    return 0.5 * twice
+
+
+@kernel
+def scale_down(p, w, members, allowed):
+    """Scale the cluster's velocities and spins so that its energy is at most ``allowed``; whether it had to."""
+    now = energy(p, w, members)
+    if now <= allowed:
+        return False
+    scale = math.sqrt(allowed / now) if allowed >= STOP_BELOW * now else 0.0
+    for i in range(LANES):
+        if members >> i & 1:
+            for quantity in (VX, VY, WX, WY, WZ):
+                store(w, quantity + i, scale * load(w, quantity + i))
+    return True

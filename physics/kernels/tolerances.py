@@ -1,0 +1,37 @@
+"""Tolerances of the kernels, each with its unit, human size and what breaks when it changes.
+
+``docs/physics.md`` states the contact rule they belong to; ``benchmarks/`` measures what each one changes.
+"""
+
+TOUCH = 1e-12
+"""m. Two balls, or a ball and a cushion, closer than this touch. A hundredth of an atom: a thousand times the
+rounding of a position (1e-15 m), so simultaneous contacts are seen as such; larger would join separate ones."""
+
+SLOW_APPROACH = 1e-9
+"""m/s. Touching balls that approach no faster are left alone (30 micrometres an hour). Smaller, and the rounding of
+velocities (1e-15 m/s) starts collisions; larger, and resting balls visibly sink into each other."""
+
+SOFT_CUSHION = 1e-3
+"""m/s. A cushion stops a ball that comes no faster instead of bouncing it, without friction. Without it an
+approach of 1e-16 m/s would cost a ball frozen to a cushion 10 % of its speed and 90 % of its spin."""
+
+REST_TIME = 1e-3
+"""s. A touching pair, or a ball at a cushion, that would meet again sooner is resting. Balls pressed together meet
+at most once in this time; smaller, and persistent contact costs more events, larger, and it shows."""
+
+PRESSING = 1e-14
+"""m/s^2. Touching balls whose relative acceleration presses them together no harder are not pressed: over the 10 s of
+a shot that is 5e-13 m."""
+
+EVENT_LIMIT = 1_000_000
+"""Events after which a shot ends with ``Status.EVENT_LIMIT``; a break has about a hundred."""
+
+ROUND_LIMIT = 10_000
+"""Rounds of the contact rule at one instant after which a shot ends with ``Status.EVENT_LIMIT``."""
+
+SOLVER_STEPS = 200
+"""Steps of the contact solver: 3 are usual, a graze takes up to 40. At the cap the contact is taken where it stands,
+at a gap far below ``TOUCH``."""
+
+ROOT_RESIDUAL = 2e-17
+"""m^2. |d|^2 - (2R)^2 at which a contact counts as reached: a gap of 2e-16 m, the rounding of d itself."""

@@ -1,0 +1,172 @@
+"""Where the balls lie between two shots."""
+
+from collections.abc import Mapping
+from typing import Any, Self, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from physics.constants import BALL_RADIUS, N_BALLS, PLACEMENT_TOLERANCE
+from physics.errors import InvalidState
+from physics.table import Table
+
+
+@final
+class TableState:
+    """Positions of the balls at rest. Immutable; equal and hashed by bits.
+
+    Build one with ``from_positions``, ``from_dict`` or ``physics.rack``.
+    """
+
+    __slots__ = ("_positions", "_valid_on")
+
+    _positions: NDArray[np.float64]
+    _valid_on: Table | None
+
+    def __init__(self) -> None:
+        raise TypeError("use TableState.from_positions, TableState.from_dict or physics.rack")
+
+    @classmethod
+    def from_positions(cls, positions: Mapping[int, ArrayLike] | ArrayLike) -> Self:
+        """Make a state from positions in metres.
+
+        Args:
+            positions: ball number to (x, y), or an array (16, 2) with NaN for balls off the table.
+
+        Raises:
+            InvalidState: an unknown ball, a position that is not two finite numbers, or two balls overlapping
+                by more than ``PLACEMENT_TOLERANCE``.
+        """
+        array = _from_mapping(positions) if isinstance(positions, Mapping) else _from_array(positions)
+        array += 0.0  # no negative zeros: equal states have equal bytes
+        _refuse_overlap(array)
+        return cls.trusted(array)
+
+    @classmethod
+    def trusted(cls, positions: NDArray[np.float64]) -> Self:
+        """Wrap an array (16, 2) that is known to be valid, without copy or check; it is made read-only."""
+        state = cls.__new__(cls)
+        positions.flags.writeable = False
+        state._positions = positions
+        state._valid_on = None
+        return state
+
+    def valid_on(self, table: Table) -> Self:
+        """This state, if every ball lies inside the table's cushion lines and outside its pocket mouths.
+
+        Raises:
+            InvalidState: naming the first ball that does not.
+        """
+        if self._valid_on is not table:
+            for ball in self.balls:
+                x, y = self._positions[ball].tolist()
+                if not table.contains(x, y):
+                    allowed = "must lie inside the cushion lines and outside the pocket mouths"
+                    raise InvalidState(f"positions[{ball}]", (x, y), allowed)
+            self._valid_on = table
+        return self
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """(16, 2) float64, m, read-only; NaN where the ball is not on the table."""
+        return self._positions
+
+    @property
+    def balls(self) -> tuple[int, ...]:
+        """Numbers of the balls on the table, ascending."""
+        return tuple(np.flatnonzero(self._positions[:, 0] == self._positions[:, 0]).tolist())
+
+    def position(self, ball: int) -> tuple[float, float] | None:
+        """(x, y) in metres, or None when the ball is not on the table."""
+        x, y = self._positions[ball].tolist()
+        return None if x != x else (x, y)
+
+    def moved(self, ball: int, position: ArrayLike) -> Self:
+        """A copy with one ball placed at ``position`` (m).
+
+        Raises:
+            InvalidState: as for ``from_positions``.
+        """
+        return self.from_positions(self._mapping() | {ball: position})
+
+    def removed(self, *balls: int) -> Self:
+        """A copy without these balls."""
+        positions = self._positions.copy()
+        positions[list(balls)] = np.nan
+        return self.trusted(positions)
+
+    def to_dict(self) -> dict[str, list[float]]:
+        """Ball number (as text, for JSON) to [x, y], for the balls on the table."""
+        return {str(ball): self._positions[ball].tolist() for ball in self.balls}
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> Self:
+        """Read what ``to_dict`` wrote.
+
+        Raises:
+            InvalidState: as for ``from_positions``.
+        """
+        positions = {}
+        for key, value in values.items():
+            if not str(key).isdecimal():
+                raise InvalidState(f"positions[{key!r}]", value, f"balls are numbered 0 to {N_BALLS - 1}")
+            positions[int(key)] = value
+        return cls.from_positions(positions)
+
+    def _mapping(self) -> dict[int, ArrayLike]:
+        return {ball: self._positions[ball] for ball in self.balls}
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, TableState):
+            return NotImplemented
+        return self._positions.tobytes() == other._positions.tobytes()
+
+    def __hash__(self) -> int:
+        return hash(self._positions.tobytes())
+
+    def __repr__(self) -> str:
+        return f"TableState.from_positions({ {ball: self.position(ball) for ball in self.balls} })"
+
+    def __reduce__(self) -> tuple[Any, tuple[NDArray[np.float64]]]:
+        return TableState.trusted, (self._positions.copy(),)
+
+
+def _from_mapping(positions: Mapping[int, ArrayLike]) -> NDArray[np.float64]:
+    array = np.full((N_BALLS, 2), np.nan)
+    for ball, position in positions.items():
+        if isinstance(ball, bool) or not isinstance(ball, int | np.integer) or not 0 <= ball < N_BALLS:
+            raise InvalidState(f"positions[{ball!r}]", position, f"balls are numbered 0 to {N_BALLS - 1}")
+        try:
+            point = np.asarray(position, dtype=np.float64)
+        except (TypeError, ValueError):
+            point = np.empty(0)
+        if point.shape != (2,) or not np.isfinite(point).all():
+            raise InvalidState(f"positions[{ball}]", position, "must be two finite numbers (x, y) in metres")
+        array[ball] = point
+    return array
+
+
+def _from_array(positions: ArrayLike) -> NDArray[np.float64]:
+    array = np.array(positions, dtype=np.float64)
+    if array.shape != (N_BALLS, 2):
+        raise InvalidState("positions", array.shape, f"must have shape ({N_BALLS}, 2)")
+    absent = np.isnan(array)
+    for ball in np.flatnonzero((absent[:, 0] != absent[:, 1]) | np.isinf(array).any(axis=1)).tolist():
+        raise InvalidState(f"positions[{ball}]", array[ball].tolist(), "must be two finite numbers, or NaN twice")
+    array[absent] = np.nan  # one bit pattern of NaN, so that equal states have equal bytes
+    return array
+
+
+def _refuse_overlap(positions: NDArray[np.float64]) -> None:
+    gap = positions[:, None, :] - positions[None, :, :]
+    squared = gap[..., 0] * gap[..., 0] + gap[..., 1] * gap[..., 1]
+    least = 2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE
+    overlapping = np.argwhere(np.triu(squared < least * least, 1))
+    if len(overlapping):
+        first, second = overlapping[0].tolist()
+        distance = float(squared[first, second]) ** 0.5
+        raise InvalidState(
+            f"positions[{second}]",
+            positions[second].tolist(),
+            f"overlaps ball {first}: centres {distance!r} m apart, must be at least {2.0 * BALL_RADIUS} m",
+        )

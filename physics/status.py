@@ -1,0 +1,36 @@
+"""How a shot can end, by name."""
+
+from enum import IntEnum
+
+
+class Status(IntEnum):
+    """How a shot ended. The first is the regular end; the rest say why there was no shot or no end.
+
+    Kernels write these numbers; ``explain`` puts them in words.
+    """
+
+    AT_REST = 0
+    CUE_OBSTRUCTED = 1
+    TIP_OFF_BALL = 2
+    OUT_OF_RANGE = 3
+    NO_CUE_BALL = 4
+    EVENT_LIMIT = 5
+
+    @property
+    def played(self) -> bool:
+        """Whether the cue ball was struck at all."""
+        return self in (Status.AT_REST, Status.EVENT_LIMIT)
+
+    def explain(self) -> str:
+        """Say the status in words."""
+        return _WORDS[self]
+
+
+_WORDS = {
+    Status.AT_REST: "every ball came to rest or was pocketed",
+    Status.CUE_OBSTRUCTED: "the cue is blocked by a ball or a cushion",
+    Status.TIP_OFF_BALL: "the tip offset lies outside the ball (a^2 + b^2 > R^2)",
+    Status.OUT_OF_RANGE: "the cue's speed or elevation is out of the table's range",
+    Status.NO_CUE_BALL: "there is no cue ball on the table",
+    Status.EVENT_LIMIT: "the shot had more events than the limit",
+}

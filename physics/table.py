@@ -1,0 +1,204 @@
+"""The table: its dimensions, its friction and the names of its collision laws.
+
+A ``Table`` is a frozen value. The constructors are named tables; ``replace`` changes single parameters within
+validated ranges. Lengths in metres, origin at the south-west corner of the cushion noses (Olympiad frame).
+"""
+
+import dataclasses
+import hashlib
+import json
+import math
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any, Literal, Self, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics import constants
+from physics.errors import InvalidTable
+
+Collisions = Literal["consistent", "fastfiz"]
+"""Named sets of collision laws; ``docs/physics.md`` gives each with its source."""
+
+_RANGES: dict[str, tuple[float, float]] = {
+    "mu_slide": (0.01, 1.0),
+    "mu_spin": (0.001, 1.0),
+    "mu_ball": (0.0, 1.0),
+    "e_ball": (0.8, 1.0),
+    "cushion_parallel": (0.0, 1.0),
+    "cushion_perpendicular": (0.0, 1.0),
+    "cushion_spin": (0.0, 1.0),
+    "rack_gap": (0.0, 1e-3),
+}
+_FIXED = (
+    *("name", "width", "length", "corner_mouth", "side_mouth", "nose_height"),
+    *("cue_length", "cue_mass", "v_max", "theta_max"),
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class Table:
+    """A pool table with its balls and cue.
+
+    Attributes:
+        name: which named table this started from.
+        width, length: m, nose to nose.
+        corner_mouth, side_mouth: m, width of the pocket mouths.
+        nose_height: m, height of the cushion nose above the cloth.
+        cue_length: m; cue_mass: kg.
+        mu_slide, mu_roll, mu_spin: cloth friction of a sliding, rolling and spinning ball.
+        mu_ball, e_ball: friction and restitution between two balls.
+        cushion_parallel, cushion_perpendicular, cushion_spin: factors a rail collision applies to the
+            velocity along and across the cushion (the latter also reverses) and to the spin.
+        v_max: m/s, theta_max: deg, the greatest cue speed and elevation.
+        rack_gap: m, gap between neighbouring balls of the rack.
+        collisions: the set of collision laws.
+        cue_test: whether a cue blocked by a ball or a cushion makes a shot unplayable.
+    """
+
+    name: str
+    width: float = 1.116
+    length: float = 2.236
+    corner_mouth: float = 0.11
+    side_mouth: float = 0.12
+    nose_height: float = 0.040005
+    cue_length: float = 1.45
+    cue_mass: float = constants.CUE_MASS
+    mu_slide: float = 0.2
+    mu_roll: float = 0.015
+    mu_spin: float = 0.044
+    mu_ball: float = 0.01
+    e_ball: float = 1.0
+    cushion_parallel: float = 0.9
+    cushion_perpendicular: float = 0.6
+    cushion_spin: float = 0.1
+    v_max: float = constants.V_MAX
+    theta_max: float = constants.THETA_MAX
+    rack_gap: float = 2.0 * constants.BALL_RADIUS * 5e-5
+    collisions: Collisions = "consistent"
+    cue_test: bool = True
+
+    @classmethod
+    def olympiad(cls) -> Self:
+        """The Computational Pool Olympiad's table with consistent collision physics: the default."""
+        return cls("olympiad")
+
+    @classmethod
+    def fastfiz(cls) -> Self:
+        """The same table with the historical engine's formulas, faults included, and no test of the cue."""
+        return cls("fastfiz", collisions="fastfiz", cue_test=False)
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some parameters changed.
+
+        Raises:
+            InvalidTable: an unknown or fixed parameter, or a value outside its range.
+        """
+        names = [field.name for field in dataclasses.fields(self) if field.name not in _FIXED]
+        for name, value in changes.items():
+            if name not in names:
+                raise InvalidTable(name, value, f"is not a parameter that can be replaced; these can: {names}")
+            _check_parameter(name, value, mu_slide=changes.get("mu_slide", self.mu_slide))
+        if "mu_slide" in changes:
+            _check_parameter("mu_roll", changes.get("mu_roll", self.mu_roll), mu_slide=changes["mu_slide"])
+        return dataclasses.replace(self, **changes)
+
+    @property
+    def ball_radius(self) -> float:
+        """Radius of a ball, m."""
+        return constants.BALL_RADIUS
+
+    @property
+    def ball_mass(self) -> float:
+        """Mass of a ball, kg."""
+        return constants.BALL_MASS
+
+    @property
+    def gravity(self) -> float:
+        """m/s^2."""
+        return constants.GRAVITY
+
+    @property
+    def head_string(self) -> float:
+        """The y of the head string, m; the kitchen lies beyond it (y greater)."""
+        return 0.75 * self.length
+
+    @property
+    def foot_spot(self) -> tuple[float, float]:
+        """Where the apex ball of the rack stands, m."""
+        return 0.5 * self.width, 0.25 * self.length
+
+    @property
+    def corner_reach(self) -> float:
+        """Length of a corner mouth measured along each of its cushions, m."""
+        return self.corner_mouth / math.sqrt(2.0)
+
+    @cached_property
+    def mouths(self) -> NDArray[np.float64]:
+        """(6, 2) m: middle of each mouth line for the ball's centre, pockets SW W NW NE E SE."""
+        radius = self.ball_radius
+        near = 0.5 * (self.corner_reach + radius)
+        east, north = self.width - near, self.length - near
+        west_side, east_side, middle = radius, self.width - radius, 0.5 * self.length
+        mouths = np.array(
+            [[near, near], [west_side, middle], [near, north], [east, north], [east_side, middle], [east, near]]
+        )
+        mouths.flags.writeable = False
+        return mouths
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a ball's centre may lie at (x, y): on a cushion line it may, on a mouth line it may not.
+
+        ``PLACEMENT_TOLERANCE`` off a cushion line counts as on it.
+        """
+        half_x, half_y = 0.5 * self.width, 0.5 * self.length
+        side, end = abs(x - half_x), abs(y - half_y)
+        radius, slack = self.ball_radius, constants.PLACEMENT_TOLERANCE
+        if not (side <= half_x - radius + slack and end <= half_y - radius + slack):
+            return False
+        in_side_mouth = side >= half_x - radius and end < 0.5 * self.side_mouth
+        in_corner_mouth = side + end >= half_x + half_y - self.corner_reach - radius
+        return not in_side_mouth and not in_corner_mouth
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values by parameter name; ``from_dict`` reads them back."""
+        return dataclasses.asdict(self)
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> Self:
+        """Read a table written by ``to_dict``; parameters left out have the named table's value.
+
+        Raises:
+            InvalidTable: unknown table name or parameter, a fixed parameter changed, a value out of range.
+        """
+        name = values.get("name")
+        named = {"olympiad": cls.olympiad, "fastfiz": cls.fastfiz}
+        if name not in named:
+            raise InvalidTable("name", name, f"must be one of {sorted(named)}")
+        base = named[name]()
+        changes = {key: value for key, value in values.items() if getattr(base, key, None) != value}
+        return base.replace(**changes)
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 over every parameter, hex: names this table in records and commitments."""
+        text = json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _check_parameter(name: str, value: Any, *, mu_slide: Any) -> None:
+    """Raise InvalidTable unless ``value`` is allowed for the replaceable parameter ``name``."""
+    if name == "collisions":
+        if value not in get_args(Collisions):
+            raise InvalidTable(name, value, f"must be one of {get_args(Collisions)}")
+        return
+    if name == "cue_test":
+        if not isinstance(value, bool):
+            raise InvalidTable(name, value, "must be True or False")
+        return
+    ranges = _RANGES | {"mu_roll": (0.001, mu_slide)}
+    low, high = ranges[name]
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not is_number or not low <= value <= high:
+        raise InvalidTable(name, value, f"must be a number in [{low}, {high}]")
