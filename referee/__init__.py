@@ -1,4 +1,7 @@
-"""The referee: World Standardized 8-ball as a pure state machine, the stroke everyone plays, the record of a game."""
+"""The referee: World Standardized 8-ball as a pure state machine, and the stroke that everything plays.
+
+The record of a game and the messages on the wire are imported by name: ``referee.record``, ``referee.wire``.
+"""
 
 from referee.errors import InvalidAction, InvalidGame, RefereeError
 from referee.game import (
@@ -17,23 +20,47 @@ from referee.game import (
     Refusal,
     Ruling,
 )
+from referee.play import (
+    Clocks,
+    GameSeeds,
+    MatchSeed,
+    NoiseModel,
+    Refused,
+    Stroke,
+    commitment,
+    play_stroke,
+    start_game,
+)
+from referee.rules import RULES, EightBall, Limits
 
 __all__ = [
+    "RULES",
     "SAFETY",
     "Action",
     "Call",
+    "Clocks",
     "CueBallArea",
     "Decision",
+    "EightBall",
     "EndReason",
     "Evidence",
     "Game",
+    "GameSeeds",
     "Group",
     "InvalidAction",
     "InvalidGame",
     "Legal",
+    "Limits",
+    "MatchSeed",
+    "NoiseModel",
     "Outcome",
     "Phase",
     "RefereeError",
     "Refusal",
+    "Refused",
     "Ruling",
+    "Stroke",
+    "commitment",
+    "play_stroke",
+    "start_game",
 ]

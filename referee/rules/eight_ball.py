@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
+from physics.batch import Batch
 from physics.facts import Facts
 from physics.state import TableState
 from physics.status import Status
@@ -92,17 +92,17 @@ class EightBall:
             raise InvalidAction("facts.status", Status(facts.status).name, f"one of {_RULED_NAMES}")
         return self._rule(game, action, facts, final)
 
-    def apply_batch(self, game: Game, actions: Sequence[Action], batch: Any) -> list[Ruling]:
+    def apply_batch(self, game: Game, actions: Sequence[Action], batch: Batch) -> list[Ruling]:
         """Rule on many strokes from the same game, one for each row of a ``physics.Batch``.
 
         Raises:
             InvalidAction: as for ``apply``, or not one action for each row.
         """
-        if len(actions) != len(batch.facts):
-            raise InvalidAction("actions", len(actions), f"{len(batch.facts)} actions, one for each row")
+        if len(actions) != len(batch):
+            raise InvalidAction("actions", len(actions), f"{len(batch)} actions, one for each row")
         return [
-            self.apply(game, action, Facts.from_record(record), TableState.trusted(positions.copy()))
-            for action, record, positions in zip(actions, batch.facts, batch.positions, strict=True)
+            self.apply(game, action, Facts.from_record(batch.facts[row]), batch.state(row))
+            for row, action in enumerate(actions)
         ]
 
     def end(self, game: Game, reason: EndReason, loser: int | None = None) -> Ruling:

@@ -107,8 +107,10 @@ def near_the_string(draw: st.DrawFn) -> dict[int, tuple[float, float]]:
 
 @given(near_the_string())
 def test_nearest_place_without_overlap(balls: dict[int, tuple[float, float]]) -> None:
-    """Free itself; the next double towards the spot is not; and nothing in between is (each blocked stretch is
-    an interval, so its ends, the edges of single balls, are the only candidates)."""
+    """Free itself; the next double towards the spot is not; and nothing in between is.
+
+    Each ball blocks an interval, so the edges of single balls are the only candidates.
+    """
     x, y = spotted(balls)
     assert x == X
     blocked = lambda place: any(overlaps((X, place), other, keep(ball)) for ball, other in balls.items())  # noqa: E731
