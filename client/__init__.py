@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from client.aio import AsyncPooliad
     from client.errors import PooliadError
     from client.http import Pooliad
-    from client.local import LocalGame, LocalMatch, play
+    from client.local import LocalMatch, play
     from client.retry import Retry
     from client.run import run_agent
     from referee import SAFETY, Action, Call, Decision
@@ -29,7 +29,6 @@ __all__ = [
     "Call",
     "Decision",
     "GameOver",
-    "LocalGame",
     "LocalMatch",
     "MatchRequest",
     "Pooliad",
@@ -48,7 +47,6 @@ _HOMES = {
     "AsyncPooliad": "client.aio",
     "PooliadError": "client.errors",
     "Pooliad": "client.http",
-    "LocalGame": "client.local",
     "LocalMatch": "client.local",
     "play": "client.local",
     "Retry": "client.retry",

@@ -26,7 +26,7 @@ class Agent(ABC):
         """Called once before the first `choose` of a game."""
 
     def game_over(self, over: GameOver) -> None:  # noqa: B027 - a hook: doing nothing is the right default
-        """Called once when the game has ended."""
+        """Called once when the game has ended, if this agent ever was at the table in it."""
 
 
 AgentFactory = Callable[[], Agent]

@@ -1,6 +1,4 @@
-"""An agent's instances, one a game, and what happens when an agent misbehaves: a line in its log, another
-try.
-"""
+"""An agent's instances, one a game; when one misbehaves, its log says how, and it is asked again."""
 
 import logging
 
@@ -43,17 +41,19 @@ class Players:
         log.error("game %s, stroke %d: refused: %s", view.game, view.stroke, reason)
 
     def game_over(self, over: GameOver) -> None:
-        """Tell the instance of this game that it has ended, and forget it."""
+        """Tell the instance of this game that it has ended, and forget it; without a turn there is none."""
+        agent = self._by_game.pop(over.game, None)
+        if agent is None:
+            return
         try:
-            self._of(over.view).game_over(over)
+            agent.game_over(over)
         except Exception:
             log.exception("game %s: game_over raised", over.game)
-        self._by_game.pop(over.game, None)
 
     def _of(self, view: View) -> Agent:
         """The instance for this game."""
         if view.game not in self._by_game:
             agent = self._factory()
-            self._by_game[view.game] = agent
             agent.game_started(view)
+            self._by_game[view.game] = agent
         return self._by_game[view.game]

@@ -13,9 +13,7 @@ from dataclasses import dataclass
 from client.errors import ApiError, ConnectionFailed, PooliadError
 
 REPEATABLE_STATUSES = frozenset({408, 429, 502, 503, 504})
-"""HTTP statuses that say "later": slow body, too many requests, and a server that is restarting or
-draining.
-"""
+"""Statuses that mean "later": slow body, too many requests, a server that restarts or drains."""
 
 
 @dataclass(frozen=True, slots=True)

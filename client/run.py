@@ -18,9 +18,7 @@ log = logging.getLogger("pooliad.agent")
 POLL = 30.0
 """Seconds that one long poll may wait for a turn."""
 FIRST_PAUSE, LONGEST_PAUSE = 0.05, 1.0
-"""Seconds between tries of an agent that fails at once: doubling, so that it neither floods the server nor
-its log.
-"""
+"""Seconds between tries of an agent that keeps failing; doubled each time, to spare server and log."""
 
 
 def run_agent(

@@ -6,9 +6,7 @@ from referee.wire import View
 
 
 def generator(seed: int | None, view: View) -> np.random.Generator:
-    """A generator for one game: the same for the same seed, game of the match and seat; fresh without a
-    seed.
-    """
+    """A generator for one game: fixed by seed, number of the game and seat; fresh without a seed."""
     if seed is None:
         return np.random.Generator(np.random.PCG64())
     return np.random.Generator(np.random.PCG64([seed, view.number, view.seat or 0]))

@@ -1,6 +1,5 @@
 """`random`: any legal action. The weakest opponent, and the smallest complete example of an agent."""
 
-import math
 from collections.abc import Sequence
 from typing import TypeVar
 
@@ -15,10 +14,10 @@ Choice = TypeVar("Choice")
 
 SLOWEST, FASTEST = 0.5, 6.0
 """m/s, the range of its cue speeds."""
+ELEVATION_MARGIN = 0.5
+"""Degrees above the least elevation, so that noise seldom lets the cue be blocked."""
 TRIES = 1000
-"""Draws of a direction or a place before giving up; on a full table more than half of all draws are
-playable.
-"""
+"""Draws of a direction or a place before giving up; even on a full table most draws are playable."""
 
 
 class RandomAgent(Agent):
@@ -65,8 +64,10 @@ class RandomAgent(Agent):
         for _ in range(TRIES):
             phi = float(self._chance.uniform(0.0, 360.0))
             theta = physics.min_elevation(table, state, phi)
-            if math.isfinite(theta):
-                return physics.Shot(float(self._chance.uniform(SLOWEST, FASTEST)), phi, theta)
+            if theta + ELEVATION_MARGIN <= table.theta_max:  # False for NaN: blocked at every elevation
+                return physics.Shot(
+                    float(self._chance.uniform(SLOWEST, FASTEST)), phi, theta + ELEVATION_MARGIN
+                )
         raise RuntimeError(f"no direction is free for the cue after {TRIES} draws: {state!r}")
 
     def _any(self, choices: Sequence[Choice]) -> Choice:

@@ -29,6 +29,12 @@ def load(name: str, seed: int | None = None) -> AgentFactory:
     return _class_at(name)
 
 
+def titles(first: str, second: str) -> tuple[str, str]:
+    """What to call two players in a match: their names or class names, numbered when they are the same."""
+    one, other = first.rpartition(":")[2], second.rpartition(":")[2]
+    return (one, other) if one != other else (f"{one}-1", f"{other}-2")
+
+
 def _class_at(path: str) -> Any:
     """The agent class at an import path."""
     module, _, attribute = path.partition(":")

@@ -1,6 +1,4 @@
-"""The `pooliad` command. One file a command; each imports what it needs when it runs, so that help is
-quick.
-"""
+"""The `pooliad` command, one file a subcommand. Each imports what it needs when it runs: help is quick."""
 
 import sys
 

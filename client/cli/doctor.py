@@ -86,9 +86,7 @@ def _port(port: int) -> dict[str, Any]:
 
 
 def _self_test() -> dict[str, Any]:
-    """Simulate a break and digest its outcome: equal digests on two machines mean equal physics, bit for
-    bit.
-    """
+    """Simulate a break and digest its outcome: on every machine the same digest, bit for bit."""
     import hashlib
     import time
 

@@ -1,6 +1,4 @@
-"""A server of one's own, for the length of a command: a process on a free port with a database in a
-directory.
-"""
+"""A server for the length of a command: a process on a free port, its database in a directory."""
 
 import json
 import secrets

@@ -15,9 +15,7 @@ from pathlib import Path
 from types import FrameType
 
 PATIENCE = 10.0
-"""Seconds a child gets to leave after SIGTERM before it is killed; a server closes its database in far
-less.
-"""
+"""Seconds from SIGTERM to SIGKILL; a server closes its database in far less."""
 PR_SET_PDEATHSIG = 1
 """Linux prctl: the signal to receive when the parent dies."""
 
@@ -79,9 +77,7 @@ def children() -> Iterator[list[Child]]:
 
 @contextlib.contextmanager
 def _termination_as_exception() -> Iterator[None]:
-    """Leave the block by SystemExit on SIGTERM and SIGHUP, where nobody else decided about them (nohup
-    does).
-    """
+    """Leave the block by SystemExit on SIGTERM and SIGHUP, unless they are ignored, as under nohup."""
 
     def leave(number: int, _frame: FrameType | None) -> None:
         raise SystemExit(128 + number)
@@ -97,9 +93,7 @@ def _termination_as_exception() -> Iterator[None]:
 
 
 def _die_with_parent() -> Callable[[], None] | None:
-    """What a child runs before its program so that it gets SIGTERM if this process is killed; None without
-    Linux.
-    """
+    """What a child runs first, to get SIGTERM should this process be killed; None without Linux."""
     if sys.platform != "linux":
         return None
     prctl = ctypes.CDLL(None, use_errno=True).prctl

@@ -83,17 +83,19 @@ def _read(file: Path) -> "Record":
         fail(f"{file} cannot be read: {error}", USAGE)
 
 
+def _sentence(entry: dict[str, Any], players: tuple[str, str]) -> str:
+    """A stroke or a decision in a sentence."""
+    from client.cli.sentences import sentence
+
+    return sentence(entry["stroke"], players, entry["ruling"]["words"], entry["ruling"]["rules"])
+
+
 def _tell_game(record: "Record") -> None:
     """The whole game, for people."""
-    from client.cli.sentences import sentence
-    from referee import Action
-
     header, end = record.header, record.end
     say(f"{header['players'][0]} against {header['players'][1]}, noise {header['noise']['level']:g}")
     for entry in record.entries:
-        action, ruling = Action.from_dict(entry["action"]), entry["ruling"]
-        player = header["players"][entry["seat"]]
-        say(sentence(entry["stroke"], player, action, ruling["words"], ruling["rules"]))
+        say(_sentence(entry, header["players"]))
     winner = end["outcome"]["winner"]
     name = "nobody" if winner is None else header["players"][winner]
     say(f"{name} wins: {end['outcome']['reason']} ({end['outcome']['rule']})")
@@ -108,18 +110,15 @@ def _show_stroke(record: "Record", number: int, as_json: bool) -> None:
     if as_json:
         emit(entry)
     else:
-        _tell_stroke(entry, record.header["players"][entry["seat"]])
+        _tell_stroke(entry, record.header["players"])
 
 
-def _tell_stroke(entry: dict[str, Any], player: str) -> None:
+def _tell_stroke(entry: dict[str, Any], players: tuple[str, str]) -> None:
     """One stroke in full, for people."""
     from client import notation
-    from client.cli.sentences import sentence
     from physics import TableState
-    from referee import Action
 
-    action, ruling = Action.from_dict(entry["action"]), entry["ruling"]
-    say(sentence(entry["stroke"], player, action, ruling["words"], ruling["rules"]))
+    say(_sentence(entry, players))
     say(f"from   {notation.write(TableState.from_dict(entry['before']))}")
     for title, shot in (("meant", entry["action"]["shot"]), ("played", entry["shot"])):
         say(f"{title:6s} " + "  ".join(f"{name} {value:.6g}" for name, value in shot.items()))

@@ -1,34 +1,25 @@
 """A stroke in a sentence: who, what was called, what came of it."""
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from physics.constants import POCKET_NAMES
-from referee import Action, Call
 from referee.wire import StrokeView
 
+_SEAT = re.compile(r"\b[Pp]layer ([01])\b")
+"""How a ruling, which knows no names, speaks of the players."""
 
-def sentence(stroke: int | None, player: str, action: Action, words: str, rules: Sequence[str]) -> str:
-    """For example `12  greedy calls the 3 in SW: made, shoots again (R28)`; decisions have no number."""
-    number = "  -" if stroke is None else f"{stroke + 1:3d}"
-    return f"{number}  {player} {intention(action)}: {words} ({', '.join(rules)})"
+
+def sentence(stroke: int | None, players: tuple[str, str], words: str, rules: Sequence[str]) -> str:
+    """For example ` 12  greedy makes solid 3 in pocket SW; greedy shoots again. (R28)`; decisions have no number."""
+    number = "   -" if stroke is None else f"{stroke + 1:4d}"
+    named = _SEAT.sub(lambda found: players[int(found[1])], words)
+    return f"{number}  {named} ({', '.join(rules)})"
 
 
 def sentence_of(stroke: StrokeView, players: tuple[str, str]) -> str:
     """The sentence for a stroke as a server tells it."""
-    ruling = stroke.ruling
-    return sentence(
-        stroke.stroke, players[stroke.seat], stroke.action.to_action(), ruling.words, ruling.rules
-    )
-
-
-def intention(action: Action) -> str:
-    """What the player meant to do, as a verb phrase."""
-    if action.decision is not None:
-        return f"decides to {action.decision.replace('_', ' ')}"
-    if isinstance(action.call, Call):
-        return f"calls the {action.call.ball} in {POCKET_NAMES[action.call.pocket]}"
-    return "breaks" if action.call is None else "plays safe"
+    return sentence(stroke.stroke, players, stroke.ruling.words, stroke.ruling.rules)
 
 
 def summary(game: Mapping[str, Any], players: tuple[str, str]) -> Iterator[str]:

@@ -1,6 +1,4 @@
-"""What `pooliad demo` sets up and runs: a server, two registered agents as processes, one match, its
-account.
-"""
+"""What `pooliad demo` sets up and runs: a server, two agents as processes, one match, its account."""
 
 import sys
 from collections.abc import Callable
@@ -9,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from client.agents.registry import SHIPPED
+from client.agents.registry import SHIPPED, titles
 from client.cli import embedded
 from client.cli.output import fail, say
 from client.cli.processes import Child
@@ -51,7 +49,7 @@ class Stage:
         _warm_up(self._say)
         server = embedded.start(self._children, self._directory)
         with Pooliad(server.url, server.organiser) as organiser:
-            players = [self._enter(organiser, server.url, name) for name in _distinct(self._agents)]
+            players = [self._enter(organiser, server.url, name) for name in titles(*self._agents)]
             request = MatchRequest(
                 agents=(players[0].id, players[1].id),
                 games=games,
@@ -118,12 +116,6 @@ class Stage:
         for child in self._children:
             if child.exit_code not in (None, 0):
                 fail(f"{child.name} left with exit code {child.exit_code}:\n{child.last_words()}")
-
-
-def _distinct(names: tuple[str, str]) -> tuple[str, str]:
-    """Two different names that a server accepts, from the agents' names or import paths."""
-    first, second = (name.rpartition(":")[2] for name in names)
-    return (first, second) if first != second else (f"{first}-1", f"{second}-2")
 
 
 def _score(match: MatchView) -> tuple[str, str]:

@@ -92,9 +92,7 @@ def _mouth(table: Table, pocket: int) -> Point:
 
 
 def _tolerance(table: Table, pocket: int, place: Point, cut: float, reach: float) -> float:
-    """Error of the cue's direction in degrees that brings the ball to the edge of the mouth (module
-    docstring).
-    """
+    """Error of the cue's direction (deg) that brings the ball to the edge of the mouth; see the module."""
     target = _mouth(table, pocket)
     inward = _inward(table, pocket)
     run = distance(place, target)

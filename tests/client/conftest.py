@@ -1,13 +1,23 @@
 """One test suite over both clients: `Sync` and `Async` give every test the same verbs."""
 
 import asyncio
+import json
+import os
+import subprocess
+import sys
+import uuid
 from collections.abc import Callable
+from importlib.util import find_spec
 from typing import Any
 
 import httpx2
 import pytest
+from support.require import require
 
 import client
+from client import MatchRequest
+from referee.play import MatchSeed
+from referee.wire import AgentToken, MatchView
 
 
 class Sync:
@@ -83,3 +93,59 @@ def pauses(monkeypatch):
     monkeypatch.setattr("client.http.time.sleep", made.append)
     monkeypatch.setattr("client.aio.asyncio.sleep", sleep)
     return made
+
+
+ORGANISER = "organiser-token-of-the-tests-0123456789"
+
+
+class Hall:
+    """A real server on loopback, and shortcuts to what every test needs of it."""
+
+    def __init__(self, url: str) -> None:
+        self.url = url
+        self.organiser_token = ORGANISER
+        self.organiser = client.Pooliad(url, ORGANISER)
+
+    def register(self, stem: str) -> AgentToken:
+        """An agent with a name of its own."""
+        return self.organiser.register(f"{stem}-{uuid.uuid4().hex[:8]}")
+
+    def match(self, first: AgentToken, second: AgentToken, seed: int = 1, **terms: Any) -> MatchView:
+        """A match that starts at once, with seat 0 to break."""
+        secret = next(s for s in map(MatchSeed.of, range(seed, seed + 64)) if s.first_breaker == 0)
+        request = MatchRequest(agents=(first.agent.id, second.agent.id), seed=secret.secret.hex(), **terms)
+        return self.organiser.create_match(request)
+
+
+SERVER_LIBRARIES = ("fastapi", "uvicorn", "sqlalchemy", "alembic")
+
+
+@pytest.fixture(scope="session")
+def server_installed():
+    """Skip without the server's libraries."""
+    for name in SERVER_LIBRARIES:
+        require(find_spec(name) is not None, f"{name}, of the server extra")
+
+
+@pytest.fixture(scope="session")
+def hall(server_installed, tmp_path_factory):
+    """One server process for the whole session."""
+    directory = tmp_path_factory.mktemp("server")
+    command = [
+        sys.executable,
+        "-m",
+        "server",
+        "--port",
+        "0",
+        "--database",
+        f"sqlite:///{directory / 'test.db'}",
+    ]
+    environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, env=environment, text=True) as process:
+        try:
+            served = Hall(json.loads(process.stdout.readline())["url"])
+            yield served
+            served.organiser.close()
+        finally:
+            process.terminate()
+            process.wait(20)

@@ -58,7 +58,7 @@ def test_blockers_are_the_balls_within_two_radii_of_the_path():
             4: (0.5, 0.2),
         }
     )
-    path = (0.5, 0.5), (0.5, 1.4)
+    path = (0.5, 0.5), (0.5, 1.46)
     assert geometry.blockers(state, *path, RADIUS, ignore=(0, 1)) == (2,)
     assert geometry.blockers(state, *path, RADIUS, ignore=(0,)) == (1, 2)
     assert not geometry.is_clear(state, *path, RADIUS, ignore=(0, 1))

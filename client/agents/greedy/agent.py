@@ -19,13 +19,9 @@ from referee.wire import View
 USUAL_NOISE = 1.0
 """The level to reckon with when the game does not tell."""
 POTS, PLACES = 12, 16
-"""The easiest pots of a position, and the most promising places of a cue ball in hand, that are
-considered.
-"""
+"""How many of the easiest pots, and of the most promising places of a cue ball in hand, are considered."""
 FINALISTS, VARIANTS = 12, 24
-"""Plans judged under noise, and the noisy variants of each. 24 tell 0.3 from 0.6 of success; more cost
-time.
-"""
+"""Plans judged under noise, and the variants of each: 24 tell a chance of 0.3 from one of 0.6."""
 CONTENT = 0.45
 """A pot worth this much is played without looking at other directions: about as good as one try in three."""
 BREAKING, RECEIVING = 0.5, 0.45

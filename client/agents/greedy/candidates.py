@@ -15,9 +15,7 @@ POT_SPEEDS = (0.8, 1.4, 2.4, 4.0)
 """m/s of the cue: from just enough for a short pot to enough for the length of the table with a thin cut."""
 FAN_SPEEDS = (1.0, 2.0, 4.0)
 FAN_DIRECTIONS = 72
-"""Directions of the fan: every 5 degrees. A ball a metre away fills 6.5 degrees, so the fan finds most
-contacts.
-"""
+"""Every 5 degrees: a ball a metre away fills 6.5 degrees, so the fan finds most contacts."""
 BREAK_SPEEDS = (1.0, 0.9)
 """Shares of the table's greatest cue speed."""
 BREAK_OFFSETS = (-1.5, 0.0, 1.5)

@@ -1,6 +1,4 @@
-"""How good plans are under the game's noise: simulate many noisy variants of each, let the referee rule on
-them.
-"""
+"""How good plans are under the game's noise: many noisy variants of each, simulated and ruled on."""
 
 from collections.abc import Sequence
 
@@ -34,9 +32,7 @@ class Judge:
         self._chance = chance
 
     def worths(self, plans: Sequence[Plan], variants: int) -> NDArray[np.float64]:
-        """Mean worth of each plan over so many noisy variants, (n,); with 0 variants, of the plan as
-        intended.
-        """
+        """Mean worth of each plan over its noisy variants, (n,); with 0 variants, as it is intended."""
         copies = max(1, variants)
         shots = np.repeat([_columns(plan) for plan in plans], copies, axis=0)
         if variants:

@@ -5,9 +5,7 @@ from physics import Table, TableState
 from referee import CueBallArea
 
 GAPS = (0.12, 0.3)
-"""Metres between the cue ball's place and where it strikes: near for precision, further to leave room for
-the cue.
-"""
+"""Metres from the cue ball's place to where it strikes: near is precise, further leaves room for the cue."""
 COLUMNS, ROWS = 5, 3
 """Of the lattice that is tried when no ball can be shot at straight."""
 BREAK_COLUMNS = 5

@@ -1,0 +1,167 @@
+"""Matches in one process, without server and clock: for trying an agent out, and for measuring it."""
+
+import secrets
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from client.agent import Agent, AgentFactory
+from client.agents.registry import load, titles
+from client.players import log
+from physics import Table
+from referee import Action, EightBall, Phase
+from referee.play import MatchSeed, NoiseModel, Stroke
+from referee.play.local import BadAction, PlayedGame, Watch, play_match, points_of
+from referee.wire import GameOver, GameTerms, OutcomeView, View
+
+Player = AgentFactory | str
+"""An `Agent` class, a function that makes agents, or a name: `random`, `greedy`, `module:Class`."""
+
+
+@dataclass(frozen=True, slots=True)
+class LocalMatch:
+    """A finished match.
+
+    Attributes:
+        players: names, by seat.
+        games: each with its strokes, its outcome and its record.
+        score: games won, by seat; half a point each for a drawn one.
+        seed: of the match; the same seed repeats it.
+    """
+
+    players: tuple[str, str]
+    games: tuple[PlayedGame, ...]
+    score: tuple[float, float]
+    seed: int
+
+    @property
+    def winner(self) -> str | None:
+        """The name of the player with more points; None for a draw."""
+        first, second = self.score
+        return None if first == second else self.players[0 if first > second else 1]
+
+
+def play(
+    agent_a: Player,
+    agent_b: Player,
+    *,
+    games: int = 1,
+    seed: int | None = None,
+    noise: float = 1.0,
+    table: Table | None = None,
+    on_stroke: Callable[[Stroke], Any] | None = None,
+) -> LocalMatch:
+    """Play a match of 8-ball between two agents.
+
+    What an agent does wrong is logged; after twenty bad actions in a row it forfeits the game.
+
+    Args:
+        agent_a, agent_b: the players of seat 0 and seat 1.
+        games: how many; the break alternates.
+        seed: repeats racks, first breaker, noise and the choices of shipped agents; drawn unless given.
+        noise: level, 0 to 5; 1 is the Olympiad's.
+        table: the Olympiad's unless given.
+        on_stroke: called after every stroke and decision.
+
+    Raises:
+        client.errors.AgentNotFound: a name leads nowhere.
+    """
+    seed = secrets.randbelow(2**32) if seed is None else seed
+    hall = _Hall((_factory(agent_a, seed), _factory(agent_b, seed)))
+    players = titles(_name(agent_a), _name(agent_b))
+    watch = Watch(on_stroke=on_stroke or _ignore, on_refusal=_log_bad_action)
+    rules, model = EightBall(table or Table.olympiad()), NoiseModel(noise)
+    match = play_match(rules, hall.seat, MatchSeed.of(seed), games, model, players=players, watch=watch)
+    played = tuple(hall.finished(game) for game in match)
+    return LocalMatch(players, played, hall.score, seed)
+
+
+class _Chair:
+    """One player in one game: the instance, and the view it saw last."""
+
+    def __init__(self, seat: int, factory: AgentFactory) -> None:
+        self._seat = seat
+        self._factory = factory
+        self._agent: Agent | None = None
+        self._last: View | None = None
+
+    def __call__(self, view: View) -> Action:
+        """The agent's answer; whatever it raises goes to the driver."""
+        if self._agent is None:
+            agent = self._factory()
+            agent.game_started(view)
+            self._agent = agent
+        self._last = view
+        return self._agent.choose(view)
+
+    def finish(self, game: PlayedGame, score: tuple[float, float]) -> None:
+        """Tell an agent that has been at the table how the game ended."""
+        if self._agent is None or self._last is None:
+            return
+        try:
+            self._agent.game_over(_game_over(game, self._seat, self._last, score))
+        except Exception:
+            log.exception("game %s: game_over raised", game.header.game)
+
+
+class _Hall:
+    """Two players, a pair of fresh instances for every game, and the score."""
+
+    def __init__(self, factories: tuple[AgentFactory, AgentFactory]) -> None:
+        self._factories = factories
+        self.score = (0.0, 0.0)
+
+    def seat(self, _number: int) -> tuple[_Chair, _Chair]:
+        """The choosers for the next game."""
+        self._chairs = _Chair(0, self._factories[0]), _Chair(1, self._factories[1])
+        return self._chairs
+
+    def finished(self, game: PlayedGame) -> PlayedGame:
+        """Count a game, and tell both players of it."""
+        first, second = points_of(game.outcome)
+        self.score = self.score[0] + first, self.score[1] + second
+        for chair in self._chairs:
+            chair.finish(game, self.score)
+        return game
+
+
+def _factory(player: Player, seed: int) -> AgentFactory:
+    """What makes the player's instances."""
+    return load(player, seed) if isinstance(player, str) else player
+
+
+def _name(player: Player) -> str:
+    """What the player goes by."""
+    return player if isinstance(player, str) else getattr(player, "__name__", "agent")
+
+
+def _game_over(game: PlayedGame, seat: int, last: View, score: tuple[float, float]) -> GameOver:
+    """What a server would tell the player of this seat at the end of the game."""
+    header, outcome, strokes = game.header, game.outcome, game.strokes
+    terms = GameTerms.model_construct(**{name: getattr(last, name) for name in GameTerms.model_fields})
+    after = strokes[-1].game if strokes else header.start
+    view = View.of(
+        terms, replace(after, phase=Phase.OVER, outcome=outcome), seat=seat, version=len(strokes),
+        clocks=last.clocks, score=score,
+    )  # fmt: skip
+    return GameOver(
+        game=header.game,
+        match=header.match,
+        number=header.number,
+        seat=seat,
+        outcome=OutcomeView.of(outcome),
+        won=None if outcome.winner is None else outcome.winner == seat,
+        score=score,
+        noise_seed=game.seeds.noise.hex(),
+        record="",
+        view=view,
+    )
+
+
+def _ignore(_stroke: Stroke) -> None:
+    """For nobody who watches."""
+
+
+def _log_bad_action(bad: BadAction) -> None:
+    """Say in the log what an agent did wrong, with its traceback if it raised."""
+    log.error("seat %d, bad action %d in a row: %s", bad.seat, bad.attempt, bad.reason, exc_info=bad.reason)
