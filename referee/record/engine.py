@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from typing import Any
@@ -41,7 +41,15 @@ def this_engine() -> Engine:
     for package in _DECIDING:
         for name, source in sorted(_sources(files(package), package)):
             total.update(f"{name}\0{hashlib.sha256(source).hexdigest()}\n".encode())
-    return Engine(version("pooliad"), total.hexdigest())
+    return Engine(_version(), total.hexdigest())
+
+
+def _version() -> str:
+    """The installed version; code that runs without being installed has only its digest."""
+    try:
+        return version("pooliad")
+    except PackageNotFoundError:
+        return "not installed"
 
 
 def _sources(folder: Traversable, name: str) -> Iterator[tuple[str, bytes]]:
