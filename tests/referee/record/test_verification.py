@@ -1,0 +1,363 @@
+"""Verification of records: true ones are believed, and of a tampered one the first difference is named."""
+
+import copy
+import json
+import math
+import subprocess
+import sys
+from functools import cache
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from support.players import Potter
+
+from physics import Shot, Table
+from referee.game import Action, EndReason, Outcome
+from referee.play import MatchSeed, NoiseModel, play_stroke, start_game
+from referee.play.local import play_game
+from referee.record import (
+    Header,
+    InvalidRecord,
+    Verdict,
+    canonical,
+    read_record,
+    record_lines,
+    this_engine,
+    verify_record,
+)
+from referee.rules import EightBall
+
+RULES = EightBall(Table.olympiad())
+SECONDS = 10**9
+
+
+@cache
+def game(seed=4, level=1.0):
+    return play_game(
+        RULES,
+        (Potter("a"), Potter("b")),
+        MatchSeed.of(seed).game(0),
+        NoiseModel(level),
+        players=("ann", "bob"),
+    )
+
+
+@cache
+def true_lines():
+    return tuple(game().record())
+
+
+def parsed():
+    return [json.loads(line) for line in true_lines()]
+
+
+def tampered(path, value):
+    """The record with one value replaced: ``path`` starts with the line's number from 0."""
+    objects = parsed()
+    node = objects
+    for step in path[:-1]:
+        node = node[step]
+    node[path[-1]] = value(node[path[-1]]) if callable(value) else value
+    return [json.dumps(line) for line in objects]
+
+
+def first_line_with(test):
+    return next(number for number, line in enumerate(parsed()) if line["type"] == "stroke" and test(line))
+
+
+@pytest.mark.parametrize(("seed", "level"), [(4, 1.0), (1, 0.0), (6, 5.0), (12, 1.0)])
+def test_a_true_record_is_verified(seed, level):
+    played = game(seed, level)
+    verification = verify_record(played.record())
+    assert verification.ok, str(verification)
+    assert verification.strokes == len(played.strokes)
+    assert verification.outcome == played.outcome
+    assert "bit for bit" in str(verification)
+
+
+def test_a_fresh_process_needs_nothing_but_the_file(tmp_path):
+    path = tmp_path / "game.jsonl"
+    path.write_text("\n".join(true_lines()) + "\n", encoding="utf-8")
+    script = f"from referee.record import verify_record as v; r = v({str(path)!r}); print(r); assert r.ok"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("verified: ")
+
+
+def test_the_record_is_canonical_and_its_form_does_not_matter():
+    assert all(canonical(json.loads(line)) == line for line in true_lines())
+    spaced = [json.dumps(json.loads(line), indent=None, separators=(" ,", " : ")) for line in true_lines()]
+    assert verify_record(spaced).ok
+
+
+def test_the_commitment_is_in_the_first_line_and_the_seed_in_the_last_alone():
+    seeds = game().seeds
+    *before, last = true_lines()
+    assert seeds.commitment in before[0]
+    assert seeds.noise.hex() in last
+    for secret in (seeds.noise, seeds.racks, seeds.rack(0), MatchSeed.of(4).secret):
+        assert all(secret.hex() not in line for line in before)
+
+
+def nudge(number):
+    """The next double: the least lie there is."""
+    return math.nextafter(number, math.inf)
+
+
+BREAK = 1
+EVENT = ("events", 20)
+TAMPERINGS = [
+    # path, value, line, stroke, event, field starts with
+    ((0, "commitment"), "0" * 64, 1, None, None, "commitment"),
+    ((0, "start", "state", "5", 0), nudge, 1, None, None, "start.state.5[0]"),
+    ((0, "start", "groups"), ["solids", "stripes"], 1, None, None, "start.groups"),
+    ((0, "noise", "level"), 1.0000001, 2, 0, None, "shot."),
+    ((0, "table", "mu_slide"), 0.25, 2, 0, 1, "events[1]."),
+    ((0, "surplus"), 1, 1, None, None, "surplus"),
+    ((BREAK, "seat"), lambda seat: 1 - seat, 2, 0, None, "seat"),
+    ((BREAK, "stroke"), 7, 2, 0, None, "stroke"),
+    ((BREAK, "entry"), 7, 2, 0, None, "entry"),
+    ((BREAK, "action", "shot", "v"), nudge, 2, 0, None, "shot.v"),
+    ((BREAK, "action", "cue_ball", 0), nudge, 2, 0, None, "before.0[0]"),
+    ((BREAK, "before", "0", 0), nudge, 2, 0, None, "before.0[0]"),
+    ((BREAK, "shot", "a"), nudge, 2, 0, None, "shot.a"),
+    ((BREAK, "shot", "phi"), nudge, 2, 0, None, "shot.phi"),
+    ((BREAK, *EVENT, "time"), nudge, 2, 0, 20, "events[20].time"),
+    ((BREAK, *EVENT, "kind"), "miracle", 2, 0, 20, "events[20].kind"),
+    ((BREAK, *EVENT, "states", 0, "position", 1), nudge, 2, 0, 20, "events[20].states[0].position[1]"),
+    ((BREAK, *EVENT, "states", 0, "velocity", 0), nudge, 2, 0, 20, "events[20].states[0].velocity[0]"),
+    ((BREAK, *EVENT, "states", 0, "spin", 2), nudge, 2, 0, 20, "events[20].states[0].spin[2]"),
+    ((BREAK, *EVENT, "states", 0, "motion"), "asleep", 2, 0, 20, "events[20].states[0].motion"),
+    ((BREAK, "events"), lambda events: events[:-1], 2, 0, None, "events["),
+    ((BREAK, "status"), "event_limit", 2, 0, None, "status"),
+    ((BREAK, "duration"), nudge, 2, 0, None, "duration"),
+    ((BREAK, "final", "8", 1), nudge, 2, 0, None, "final.8[1]"),
+    ((BREAK, "ruling", "rules"), ["R46"], 2, 0, None, "ruling.rules"),
+    ((BREAK, "ruling", "fouls"), ["R32"], 2, 0, None, "ruling.fouls"),
+    ((BREAK, "ruling", "words"), "Nothing to see.", 2, 0, None, "ruling.words"),
+    ((BREAK, "ruling", "evidence"), [], 2, 0, None, "ruling.evidence"),
+    ((BREAK, "game", "turn"), lambda seat: 1 - seat, 2, 0, None, "game.turn"),
+    ((BREAK, "game", "groups"), ["solids", "stripes"], 2, 0, None, "game.groups"),
+    ((BREAK, "game", "state", "8", 0), nudge, 2, 0, None, "game.state.8[0]"),
+    ((-1, "noise_seed"), "0" * 64, 1, None, None, "commitment"),
+    ((-1, "rack_seed"), "0" * 64, 1, None, None, "start.state."),
+    ((-1, "entries"), 3, None, None, None, "entries"),
+    ((-1, "outcome", "winner"), lambda seat: 1 - seat, None, None, None, "outcome.winner"),
+    ((-1, "outcome", "reason"), "concession", None, None, None, "outcome.reason"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "line", "stroke", "event", "field"),
+    TAMPERINGS,
+    ids=[".".join(map(str, row[0])) for row in TAMPERINGS],
+)
+def test_every_lie_is_found_and_named(path, value, line, stroke, event, field):
+    lines = tampered(path, value)
+    verification = verify_record(lines)
+    assert verification.verdict is Verdict.DIFFERENT, str(verification)
+    difference = verification.difference
+    assert difference.line == (line or len(lines))
+    assert difference.stroke == stroke
+    assert event is None or difference.event == event
+    assert difference.field.startswith(field)
+    assert repr(difference.recorded) in str(verification)
+    assert repr(difference.derived) in str(verification)
+
+
+def test_a_lie_about_a_ball_names_the_ball():
+    path = (BREAK, *EVENT, "states", 0, "spin", 2)
+    ball = parsed()[BREAK]["events"][20]["states"][0]["ball"]
+    assert verify_record(tampered(path, nudge)).difference.ball == ball
+    assert verify_record(tampered((BREAK, "final", "8", 1), nudge)).difference.ball == 8
+
+
+def test_seed_and_commitment_changed_together_are_found_in_the_noise():
+    """Whoever invents another noise seed with its commitment is caught at the first noisy shot."""
+    objects = parsed()
+    other = MatchSeed.of(99).game(0)
+    objects[0]["commitment"] = other.commitment
+    objects[-1]["noise_seed"] = other.noise.hex()
+    verification = verify_record([json.dumps(line) for line in objects])
+    assert (verification.difference.stroke, verification.difference.field) == (0, "shot.v")
+
+
+def test_a_stroke_left_out_is_found():
+    lines = [*true_lines()[:2], *true_lines()[3:]]
+    assert verify_record(lines).verdict is Verdict.DIFFERENT
+
+
+def test_a_stroke_after_the_end_is_found():
+    lines = [*true_lines()[:-1], true_lines()[-2], true_lines()[-1]]
+    difference = verify_record(lines).difference
+    assert difference.field == "action"
+    assert "the game is over" in difference.derived
+
+
+def test_an_action_that_is_not_allowed_is_found():
+    number = first_line_with(lambda line: line["action"].get("call"))
+    lines = tampered((number, "action", "call"), {"ball": 8, "pocket": 0})
+    difference = verify_record(lines).difference
+    assert difference.field == "action"
+    assert difference.derived.startswith("refused: call.ball = 8")
+
+
+def test_a_game_cut_short_has_no_such_end():
+    """The last strokes left out, the result kept."""
+    lines = [*true_lines()[:-2], true_lines()[-1]]
+    difference = verify_record(lines).difference
+    assert difference.field == "outcome"
+    assert difference.derived == "no end: the game goes on"
+
+
+@pytest.mark.parametrize(("key", "value"), [("version", "99.0"), ("digest", "f" * 64)])
+def test_another_engines_record_says_which_one_it_needs(key, value):
+    verification = verify_record(tampered((0, "engine", key), value))
+    assert verification.verdict is Verdict.OTHER_ENGINE
+    assert verification.needs != this_engine()
+    assert value[:12] in str(verification)
+    assert str(this_engine()) in str(verification)
+
+
+@pytest.mark.parametrize(
+    ("lines", "problem"),
+    [
+        ([], "a record starts with a header"),
+        (["{}"], "line 1, type"),
+        (["not json"], "line 1"),
+        (["[1, 2]"], "must be a JSON object"),
+        (['{"type": NaN}'], "NaN is no JSON number"),
+    ],
+)
+def test_what_is_no_record_is_malformed(lines, problem):
+    verification = verify_record(lines)
+    assert verification.verdict is Verdict.MALFORMED
+    assert problem in str(verification)
+
+
+def test_an_unfinished_record_is_malformed():
+    verification = verify_record(true_lines()[:-1])
+    assert verification.verdict is Verdict.MALFORMED
+    assert "must be 'end'" in str(verification)
+    assert "the record ends before the game does" in str(verify_record(true_lines()[:1]))
+
+
+def test_a_cut_line_is_named():
+    lines = list(true_lines())
+    lines[2] = lines[2][:500]
+    assert verify_record(lines).problem.startswith("line 3 = ")
+
+
+def test_a_binary_file_is_malformed(tmp_path):
+    path = tmp_path / "noise"
+    path.write_bytes(bytes(range(256)))
+    assert verify_record(path).verdict is Verdict.MALFORMED
+    with pytest.raises(InvalidRecord, match="UTF-8"):
+        read_record(path)
+
+
+def test_names_with_line_separators_stay_on_their_line(tmp_path):
+    """JSON leaves U+2028 as it is; only a line feed ends a line of the record."""
+    objects = parsed()
+    objects[0]["players"] = ["a\u2028nn", "b\x85ob"]
+    path = tmp_path / "game.jsonl"
+    path.write_text("\n".join(canonical(line) for line in objects), encoding="utf-8", newline="\n")
+    assert verify_record(path).ok
+
+
+JUNK = st.sampled_from([None, True, -1, 10**30, 1e300, "", "x", [], {}, [[]], {"a": 1}, [1, 2, 3]])
+
+
+@settings(max_examples=150)
+@given(st.data())
+def test_junk_anywhere_is_an_answer_and_never_an_exception(data):
+    """Any value of a short record replaced by any junk."""
+    objects = copy.deepcopy(_short_record())
+    node = objects[data.draw(st.integers(0, len(objects) - 1))]
+    while True:
+        key = data.draw(st.sampled_from(sorted(node) if isinstance(node, dict) else range(len(node))))
+        if not isinstance(node[key], dict | list) or not node[key] or data.draw(st.booleans()):
+            break
+        node = node[key]
+    before = node[key]
+    node[key] = data.draw(JUNK)
+    verification = verify_record([json.dumps(line) for line in objects])
+    assert verification.verdict in Verdict
+    assert str(verification)
+    assert not verification.ok or key in _BELIEVED or before == node[key]
+
+
+_BELIEVED = {"game", "match", "number", "players", "elapsed_ns", "allowance_ns", "told", 0, 1}
+"""What a record says about who played, where, and how long they thought, no replay can contradict."""
+
+
+@cache
+def _short_record():
+    played = game()
+    return [json.loads(line) for line in _lines_of([played.strokes[0]], EndReason.CONCESSION)]
+
+
+def _lines_of(strokes, reason, charges=(None,), elapsed_ns=(0, 0), allowance_ns=None):
+    """A record of these strokes, ended from outside to the loss of whoever is in turn."""
+    played = game()
+    header = Header.of(
+        RULES,
+        played.header.start,
+        played.seeds,
+        played.header.noise,
+        game="g",
+        match="m",
+        players=("ann", "bob"),
+        allowance_ns=allowance_ns,
+    )
+    outcome = Outcome(1 - strokes[-1].game.turn, reason, "R48")
+    timed = list(zip(strokes, charges, strict=True))
+    return list(record_lines(header, timed, outcome, played.seeds, elapsed_ns))
+
+
+def test_an_end_from_outside_is_verified():
+    """R48: the winner and the rule follow, the reason is the organiser's word."""
+    first = game().strokes[:1]
+    for reason in (EndReason.FORFEIT, EndReason.CRASH, EndReason.NO_SHOW):
+        verification = verify_record(_lines_of(first, reason))
+        assert verification.ok, str(verification)
+        assert verification.outcome.reason is reason
+
+
+def test_a_made_up_end_is_found():
+    lines = _lines_of(game().strokes[:1], EndReason.EIGHT_MADE)
+    assert verify_record(lines).difference.field == "outcome"
+
+
+@pytest.mark.parametrize(("used", "ok"), [(300 * SECONDS, True), (300 * SECONDS - 1, False)])
+def test_a_time_out_rests_on_the_charges(used, ok):
+    """Exactly zero left is out of time; one nanosecond is not."""
+    stroke = game().strokes[0]
+    turn = stroke.game.turn
+    charge = 100 * SECONDS
+    waited = [0, 0]
+    waited[turn] = used - (charge if stroke.seat == turn else 0)
+    lines = _lines_of([stroke], EndReason.TIME_OUT, (charge,), waited, 300 * SECONDS)
+    verification = verify_record(lines)
+    assert verification.ok == ok, str(verification)
+    assert ok or verification.difference.field == "outcome"
+
+
+def test_decisions_and_new_racks_are_part_of_the_record():
+    """R12: an illegal break, another rack; the rack follows from the revealed rack seed."""
+    seeds, noise = MatchSeed.of(21).game(0), NoiseModel(1.0)
+    start = start_game(RULES, seeds)
+    soft = Action(Shot(0.3, 270.0, 5.0), cue_ball=(0.558, 1.75))
+    strokes = [play_stroke(RULES, start, soft, seeds, noise)]
+    for action in (Action(decision="rerack_and_break"), Action(decision="concede")):
+        strokes.append(play_stroke(RULES, strokes[-1].game, action, seeds, noise))
+    header = Header.of(RULES, start, seeds, noise, game="g", match="m", players=("ann", "bob"))
+    timed = [(stroke, None) for stroke in strokes]
+    lines = list(record_lines(header, timed, strokes[-1].game.outcome, seeds))
+    assert verify_record(lines).ok
+    second = json.loads(lines[2])
+    assert "events" not in second
+    second["game"]["state"]["3"][0] = nudge(second["game"]["state"]["3"][0])
+    difference = verify_record([*lines[:2], json.dumps(second), *lines[3:]]).difference
+    assert (difference.line, difference.stroke, difference.ball) == (3, None, 3)
+    assert difference.field == "game.state.3[0]"
