@@ -14,6 +14,9 @@ from numpy.typing import NDArray
 DISTANCE = 2 * 0.028575
 """Two ball radii, m."""
 
+DIAGONAL = 2.4
+"""m; the longest way on the table."""
+
 G = 9.81
 MU_SLIDE, MU_ROLL = 0.2, 0.015
 FLOATS = NDArray[np.float64]
@@ -64,10 +67,11 @@ def motions(rng: np.random.Generator, n: int) -> tuple[FLOATS, FLOATS, FLOATS]:
 
 
 def relative_motions(rng: np.random.Generator, n: int) -> tuple[FLOATS, FLOATS, FLOATS]:
-    """b, a and t_max of n pairs of which at least one moves; lifetimes capped at 4 s (most shots end before)."""
+    """b, a and t_max of n pairs of which at least one moves; no way is longer than the table's diagonal."""
     v1, a1, t1 = motions(rng, n)
     v2, a2, t2 = motions(rng, n)
-    return v2 - v1, a2 - a1, np.minimum(np.minimum(t1, t2), rng.uniform(0.5, 4.0, n))
+    t_max = np.minimum(np.minimum(t1, t2), rng.uniform(0.5, 4.0, n))
+    return v2 - v1, a2 - a1, np.minimum(t_max, 0.5 * DIAGONAL / np.linalg.norm(v2 - v1, axis=1).clip(0.1))
 
 
 def random_pairs(rng: np.random.Generator, n: int) -> tuple[FLOATS, ...]:
@@ -177,7 +181,8 @@ def parallel_paths(rng: np.random.Generator, n: int) -> tuple[FLOATS, ...]:
     beside = np.where(rng.random(n) < 0.3, 0.0, DISTANCE + depths(rng, n))
     ahead = rng.uniform(0.06, 1.5, n)
     c = heading * column(ahead) + turned(heading) * column(beside)
-    return started_clear(c, -heading * column(speed), heading * column(pull), rng.uniform(0.1, 4.0, n))
+    t_max = np.minimum(rng.uniform(0.1, 4.0, n), DIAGONAL / speed)
+    return started_clear(c, -heading * column(speed), heading * column(pull), t_max)
 
 
 def stopping_short(rng: np.random.Generator, n: int) -> tuple[FLOATS, ...]:

@@ -6,7 +6,6 @@ of a few units of the largest coordinate; ``ROUNDING`` allows four times as much
 
 import numpy as np
 from numpy.typing import NDArray
-
 from support.contact.cases import DISTANCE, FLOATS, Cases
 from support.contact.exact import CREEP, RESIDUAL, SHALLOW
 

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 from mpmath import mp, mpf
-
 from support.contact.cases import DISTANCE
 from support.truth.roots import first_fall
 
@@ -43,13 +42,11 @@ def entry(c: Vector, b: Vector, a: Vector, t_max: float) -> mpf | None:
 def agrees(c: Vector, b: Vector, a: Vector, t_max: float, answer: float) -> bool | None:
     """Is the answer right? None where the contact, or its absence, is shallower than SHALLOW."""
     with mp.workdps(DIGITS):
-        deep = fall_through(c, b, a, t_max, DISTANCE - mpf(SHALLOW))
-        near = fall_through(c, b, a, t_max, DISTANCE + mpf(SHALLOW))
-        if deep is None and near is not None:
-            return None
+        if fall_through(c, b, a, t_max, DISTANCE - mpf(SHALLOW)) is None:
+            starts_near = gap_quartic(c, b, a, DISTANCE + mpf(SHALLOW))[0] <= 0
+            comes_near = starts_near or fall_through(c, b, a, t_max, DISTANCE + mpf(SHALLOW)) is not None
+            return None if comes_near else answer != answer
         if answer != answer:
-            return deep is None
-        if deep is None or near is None:
             return False
         first = fall_through(c, b, a, t_max, DISTANCE + mpf(CLOSE))
         last = fall_through(c, b, a, t_max, DISTANCE - mpf(CLOSE))

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mpmath import mp, mpc, mpf
-
 from support.truth.model import MOVING, Ball, Motion, World, dot
 from support.truth.motion import acceleration, lifetime
 from support.truth.octagon import Line, in_side_mouth

@@ -4,7 +4,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 from mpmath import mp, mpf
-
 from support.truth.contacts import Cluster, make_cluster, resolve, touching
 from support.truth.detect import Event, own_event, pair_contact
 from support.truth.laws import bounce, historical_collision

@@ -1,7 +1,6 @@
 """What one collision does: two balls, a cushion; the consistent set and the historical one (PHYSICS "Collisions")."""
 
 from mpmath import mpc, mpf
-
 from support.truth.model import Ball, World, dot, unit
 from support.truth.motion import classify
 from support.truth.octagon import Line

@@ -1,7 +1,6 @@
 """Motion between events in closed form [I], and what a ball becomes when its motion ends."""
 
 from mpmath import mp, mpc, mpf
-
 from support.truth.model import Ball, Motion, World, slip, unit
 
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mpmath import mp, mpc, mpf
-
 from support.truth.model import Ball, World, dot
 
 SW, W, NW, NE, E, SE = range(6)

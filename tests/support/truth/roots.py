@@ -5,6 +5,7 @@ root. Applied to the derivatives first, this isolates every real root with nothi
 """
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from mpmath import mp, mpf
 
@@ -54,7 +55,7 @@ def bracketed_root(p: Polynomial, low: mpf, high: mpf) -> mpf:
 def monotone_pieces(p: Polynomial, low: mpf, high: mpf) -> Iterator[tuple[mpf, mpf]]:
     """The intervals between the roots of the derivative."""
     edges = [low, *real_roots(derivative(p), low, high), high]
-    return zip(edges[:-1], edges[1:], strict=True)
+    return pairwise(edges)
 
 
 def real_roots(p: Polynomial, low: mpf, high: mpf) -> list[mpf]:

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 from mpmath import mp, mpc, mpf
-
 from support.truth.model import Ball, World
 from support.truth.motion import classify
 

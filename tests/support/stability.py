@@ -1,0 +1,43 @@
+"""How far a shot's story is decided by its doubles: the truth beside truths with v and phi moved by one ulp."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from support.compare import Happening, from_truth, partners
+from support.truth.engine import play
+from support.truth.model import World
+from support.truth.strike import Stroke
+
+Positions = Mapping[int, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Told:
+    """The true events up to the first that one ulp changes, and by how much one ulp moves each in time (s)."""
+
+    events: list[Happening]
+    whole: bool
+    sensitivity: list[float]
+
+
+def nudged(stroke: Stroke) -> list[Stroke]:
+    """v and phi one ulp up and down, together and against each other."""
+    up, down = math.inf, -math.inf
+    return [
+        replace(stroke, v=math.nextafter(stroke.v, v_to), phi=math.nextafter(stroke.phi, phi_to))
+        for v_to, phi_to in ((up, up), (down, up))
+    ]
+
+
+def told(positions: Positions, stroke: Stroke, world: World, *, digits: int = 50, max_events: int = 10_000) -> Told:
+    """The stable beginning of a shot."""
+    options = {"digits": digits, "max_events": max_events}
+    events = from_truth(play(positions, stroke, world, **options).records)
+    stable, moved = len(events), [0.0] * len(events)
+    for other in nudged(stroke):
+        also = partners(events, from_truth(play(positions, other, world, **options).records))
+        stable = min(stable, len(also))
+        for k, event in enumerate(also):
+            moved[k] = max(moved[k], float(abs(event.time - events[k].time)))
+    return Told(events[:stable], stable == len(events) < max_events, moved[:stable])
