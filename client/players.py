@@ -22,7 +22,7 @@ class Players:
     def choose(self, view: View) -> Action | None:
         """The agent's action; None when it raised or returned something else, which is logged."""
         try:
-            action = self._of(view).choose(view)
+            action: object = self._of(view).choose(view)
         except Exception:
             log.exception("game %s, stroke %d: choose raised", view.game, view.stroke)
             return None

@@ -26,7 +26,8 @@ def load(name: str, seed: int | None = None) -> AgentFactory:
     """
     if name in SHIPPED:
         return partial(_class_at(SHIPPED[name]), seed=seed)
-    return _class_at(name)
+    factory: AgentFactory = _class_at(name)
+    return factory
 
 
 def titles(first: str, second: str) -> tuple[str, str]:

@@ -62,6 +62,15 @@ def _origin(package: str) -> str | None:
     return places[0] if places else None
 
 
+def _kernel_cache() -> dict[str, Any]:
+    """Where compiled kernels are kept, and whether they are there already."""
+    from physics.engine import cache_folder, digest
+
+    folder = cache_folder()
+    state = "no folder can be written" if folder is None else "filled" if any(folder.iterdir()) else "empty"
+    return {"folder": None if folder is None else str(folder), "state": state, "engine": digest()}
+
+
 def _database(url: str) -> dict[str, Any]:
     """Whether the database's file is there, or could be made."""
     import os
@@ -122,21 +131,13 @@ def _faults(report: dict[str, Any]) -> list[str]:
 
 def _tell(report: dict[str, Any]) -> None:
     """The report, for people."""
-    from rich.console import Console
-    from rich.table import Table
-
-    grid = Table(show_header=False, box=None, pad_edge=False)
     for section, values in report.items():
         for name, value in values.items():
-            grid.add_row(section.replace("_", " "), name.replace("_", " "), _shown(value))
-            section = ""
-    Console(soft_wrap=True, highlight=False).print(grid)
+            say(f"{section.replace('_', ' '):14s}{name.replace('_', ' '):26s}{_shown(value)}")
 
 
 def _shown(value: Any) -> str:
     """A value in a word."""
-    return (
-        {None: "missing", True: "yes", False: "no"}.get(value, str(value))
-        if not isinstance(value, dict)
-        else ""
-    )
+    if value is None:
+        return "missing"
+    return {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)

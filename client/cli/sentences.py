@@ -11,7 +11,7 @@ _SEAT = re.compile(r"\b[Pp]layer ([01])\b")
 
 
 def sentence(stroke: int | None, players: tuple[str, str], words: str, rules: Sequence[str]) -> str:
-    """For example ` 12  greedy makes solid 3 in pocket SW; greedy shoots again. (R28)`; decisions have no number."""
+    """For example `  12  greedy makes solid 3 in pocket SW; greedy goes on. (R28)`; a dash for decisions."""
     number = "   -" if stroke is None else f"{stroke + 1:4d}"
     named = _SEAT.sub(lambda found: players[int(found[1])], words)
     return f"{number}  {named} ({', '.join(rules)})"

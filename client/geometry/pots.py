@@ -70,8 +70,17 @@ def pots(
 ) -> list[Pot]:
     """The open straight pots of `balls` into `pockets`, the most forgiving first."""
     into = tuple(pockets)
-    found = [pot(table, state, ball, pocket) for ball in balls for pocket in into]
+    thin_enough = [
+        (ball, pocket) for ball in balls for pocket in into if _can_be_cut(table, state, ball, pocket)
+    ]
+    found = [pot(table, state, ball, pocket) for ball, pocket in thin_enough]
     return sorted((each for each in found if each.is_open), key=lambda each: -each.tolerance)
+
+
+def _can_be_cut(table: Table, state: TableState, ball: int, pocket: int) -> bool:
+    """Whether the cut is one that can be played: quick to see, and false for half of all pairs."""
+    cue_ball, place = _places(state, ball)
+    return cut_angle(cue_ball, place, _mouth(table, pocket), table.ball_radius) <= STEEPEST_CUT
 
 
 def _places(state: TableState, ball: int) -> tuple[Point, Point]:

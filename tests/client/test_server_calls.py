@@ -139,7 +139,7 @@ def test_conceding_ends_the_game_and_reveals_the_record(make, hall, pair):
 
 def test_the_physics_answers_over_http_as_in_process(make, hall):
     state = physics.TableState.from_positions({0: (0.5, 1.7), 3: (0.4, 0.6)})
-    api = make(hall.url, None)
+    api = make(hall.url, hall.register("physicist").token)
     theta = api.min_elevation(TABLE, state, 260.0).theta
     assert theta == physics.min_elevation(TABLE, state, 260.0)
     shot = physics.Shot(2.0, 260.0, theta + 1.0)

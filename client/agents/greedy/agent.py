@@ -11,17 +11,17 @@ from client.agents.greedy import places
 from client.agents.greedy.candidates import Candidates
 from client.agents.greedy.judge import Judge
 from client.agents.greedy.plan import Plan
-from client.geometry import Point, pots
-from physics import Table, TableState
+from client.geometry import Point
+from physics import Table
 from referee import Action, Call, CueBallArea, Decision, EightBall, Game, Phase
 from referee.wire import View
 
 USUAL_NOISE = 1.0
 """The level to reckon with when the game does not tell."""
-POTS, PLACES = 12, 16
+POTS, PLACES = 8, 16
 """How many of the easiest pots, and of the most promising places of a cue ball in hand, are considered."""
-FINALISTS, VARIANTS = 12, 24
-"""Plans judged under noise, and the variants of each: 24 tell a chance of 0.3 from one of 0.6."""
+SCREENING, FINALISTS, VARIANTS = 4, 6, 60
+"""All plans are judged by a few noisy variants, the best by many: 60 tell 0.6 of success from 0.75."""
 CONTENT = 0.45
 """A pot worth this much is played without looking at other directions: about as good as one try in three."""
 BREAKING, RECEIVING = 0.5, 0.45
@@ -81,17 +81,20 @@ class _Turn:
         """The stroke of the greatest expected worth, and that worth."""
         if self._game.phase is Phase.BREAK:
             return self._best_of(self._break_plans())
-        plans = self._made_as_intended(self._pot_plans())
+        plans = self._pot_plans()
         best = self._best_of(plans) if plans else None
         if best is not None and best[1] >= CONTENT:
             return best
-        return self._best_of([*plans, *self._other_plans()])
+        others = [self._best_of(self._other_plans()), *([best] if best else [])]
+        return max(others, key=lambda judged: judged[1])
 
     def _best_of(self, plans: Sequence[Plan]) -> tuple[Action, float]:
-        """The best of the plans under noise."""
-        worths = self._judge.worths(plans, VARIANTS if self._noise > 0.0 else 0)
+        """The best of the plans under noise: all are screened, the finalists judged with care."""
+        rough = self._judge.worths(plans, SCREENING)
+        finalists = [plans[index] for index in np.argsort(-rough, kind="stable")[:FINALISTS]]
+        worths = self._judge.worths(finalists, VARIANTS)
         best = int(np.argmax(worths))
-        return plans[best].action, float(worths[best])
+        return finalists[best].action, float(worths[best])
 
     def _pot_plans(self) -> list[Plan]:
         """Open pots from where the cue ball lies, or from where it could be put."""
@@ -102,32 +105,19 @@ class _Turn:
         return [plan for place, before in placed for plan in self._candidates.pots(before, place, balls, 2)]
 
     def _places(self, balls: tuple[int, ...]) -> list[Point]:
-        """Where to put the cue ball: the places with the most forgiving pots."""
+        """Where to put the cue ball: behind a pot, or anywhere when there is none."""
         area = self._game.cue_ball_in_hand or CueBallArea.ANYWHERE
         state = self._game.state
-        found = places.straight(self._table, state, balls, area) or places.scattered(self._table, state, area)
-        return sorted(found, key=lambda place: -self._ease(state.moved(0, place), balls))[:PLACES]
-
-    def _ease(self, before: TableState, balls: tuple[int, ...]) -> float:
-        """How forgiving the easiest pot is (deg)."""
-        return max((pot.tolerance for pot in pots(self._table, before, balls)), default=0.0)
-
-    def _made_as_intended(self, plans: Sequence[Plan]) -> list[Plan]:
-        """The plans that are worth most without noise, at most `FINALISTS`."""
-        if not plans:
-            return []
-        worths = self._judge.worths(plans, 0)
-        order = np.argsort(-worths, kind="stable")[:FINALISTS]
-        return [plans[index] for index in order]
+        found = places.straight(self._table, state, balls, area)
+        return found[:PLACES] or places.scattered(self._table, state, area)
 
     def _other_plans(self) -> list[Plan]:
-        """The best of all directions: safeties, kicks, and whatever ball such a stroke happens to make."""
-        area = self._game.cue_ball_in_hand
-        state = self._game.state
+        """Strokes in all directions: safeties, kicks, and whatever ball such a stroke happens to make."""
+        area, state = self._game.cue_ball_in_hand, self._game.state
         if area is None:
-            return self._made_as_intended(self._called(self._candidates.fan(state, None)))
-        place = places.scattered(self._table, state, area)[0]
-        return self._made_as_intended(self._called(self._candidates.fan(state.moved(0, place), place)))
+            return self._called(self._candidates.fan(state, None))
+        place = places.roomy(self._table, state, area)
+        return self._called(self._candidates.fan(state.moved(0, place), place))
 
     def _called(self, plans: Sequence[Plan]) -> list[Plan]:
         """The plans, those that make a ball of their own calling that ball."""

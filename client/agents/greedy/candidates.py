@@ -1,18 +1,22 @@
 """Strokes worth considering: every open pot at a few speeds, a fan of other directions, breaks.
 
-Each is played at the least elevation at which the cue is free, plus what the noise may take away.
+Each is played at the least elevation at which the cue stays free whatever the noise does, within reason.
 """
 
 import math
 from collections.abc import Iterable, Sequence
+from typing import Literal
 
 from client.agents.greedy.plan import Plan
 from client.geometry import Point, Pot, azimuth, pots
 from physics import Shot, Table, TableState, min_elevation
 from referee import SAFETY, Action, Call
+from referee.play.noise import SIGMA_B, SIGMA_PHI, SIGMA_THETA
 
 POT_SPEEDS = (0.8, 1.4, 2.4, 4.0)
 """m/s of the cue: from just enough for a short pot to enough for the length of the table with a thin cut."""
+TIPS = (0.0, 7.0, -7.0)
+"""Tip heights in mm: plain, follow and draw; they steer the cue ball clear of pockets."""
 FAN_SPEEDS = (1.0, 2.0, 4.0)
 FAN_DIRECTIONS = 72
 """Every 5 degrees: a ball a metre away fills 6.5 degrees, so the fan finds most contacts."""
@@ -20,8 +24,8 @@ BREAK_SPEEDS = (1.0, 0.9)
 """Shares of the table's greatest cue speed."""
 BREAK_OFFSETS = (-1.5, 0.0, 1.5)
 """Where the break aims, in millimetres beside the apex ball's centre."""
-ELEVATION_MARGIN = 0.3
-"""Degrees above the least elevation for each noise level: three standard deviations."""
+SIGMAS_OFF = 2.5
+"""Standard deviations of direction and tip height that must leave the cue free, so that miscues are rare."""
 
 
 class Candidates:
@@ -29,7 +33,7 @@ class Candidates:
 
     def __init__(self, table: Table, noise: float) -> None:
         self._table = table
-        self._margin = ELEVATION_MARGIN * noise
+        self._slack = SIGMAS_OFF * noise
 
     def pots(self, before: TableState, place: Point | None, balls: Sequence[int], most: int) -> list[Plan]:
         """The `most` easiest open pots of `balls`, each at several speeds."""
@@ -39,32 +43,40 @@ class Candidates:
     def fan(self, before: TableState, place: Point | None) -> list[Plan]:
         """Strokes in all directions, called as safeties."""
         directions = (360.0 * index / FAN_DIRECTIONS for index in range(FAN_DIRECTIONS))
-        return [
-            plan for phi in directions for plan in self._at_speeds(before, place, phi, FAN_SPEEDS, SAFETY)
-        ]
+        return [plan for phi in directions for plan in self._aimed(before, place, phi, FAN_SPEEDS, SAFETY)]
 
     def breaks(self, before: TableState, place: Point) -> list[Plan]:
         """Full strokes at the apex ball, and a little beside it."""
         x, y = self._table.foot_spot
         speeds = tuple(share * self._table.v_max for share in BREAK_SPEEDS)
         aims = (azimuth(place, (x + 1e-3 * offset, y)) for offset in BREAK_OFFSETS)
-        return [plan for phi in aims for plan in self._at_speeds(before, place, phi, speeds, None)]
+        return [plan for phi in aims for plan in self._aimed(before, place, phi, speeds, None)]
 
     def _pot(self, before: TableState, place: Point | None, pot: Pot) -> list[Plan]:
-        """One pot at several speeds."""
-        return self._at_speeds(before, place, pot.phi, POT_SPEEDS, Call(pot.ball, pot.pocket))
+        """One pot at several speeds and tip heights."""
+        call = Call(pot.ball, pot.pocket)
+        return [plan for b in TIPS for plan in self._aimed(before, place, pot.phi, POT_SPEEDS, call, b)]
 
-    def _at_speeds(
+    def _aimed(
         self,
         before: TableState,
         place: Point | None,
         phi: float,
         speeds: Iterable[float],
-        call: Call | str | None,
+        call: Call | Literal["safety"] | None,
+        b: float = 0.0,
     ) -> list[Plan]:
         """Plans in one direction; none where the cue is blocked at every elevation."""
-        least = min_elevation(self._table, before, phi)
-        if math.isnan(least):
+        theta = self._elevation(before, phi, b)
+        if math.isnan(theta):
             return []
-        theta = min(self._table.theta_max, least + self._margin)
-        return [Plan(Action(shot=Shot(v, phi, theta), call=call, cue_ball=place), before) for v in speeds]
+        return [
+            Plan(Action(shot=Shot(v, phi, theta, 0.0, b), call=call, cue_ball=place), before) for v in speeds
+        ]
+
+    def _elevation(self, before: TableState, phi: float, b: float) -> float:
+        """The least elevation (deg) at which the cue stays free under noise; NaN when there is none."""
+        aside, lower = self._slack * SIGMA_PHI, b - self._slack * SIGMA_B
+        least = [min_elevation(self._table, before, phi + turn, 0.0, lower) for turn in (-aside, 0.0, aside)]
+        theta = max(least) + self._slack * SIGMA_THETA
+        return theta if theta <= self._table.theta_max else math.nan

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from client.agents.greedy.plan import Plan
 from client.agents.greedy.worth import worth
 from physics import simulate_batch
-from physics.shot import FIELDS, THETA_MAX, V_MAX
+from physics.constants import THETA_MAX, V_MAX
+from physics.shot import FIELDS
 from referee import Call, EightBall, Game
 from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
 
@@ -32,11 +33,9 @@ class Judge:
         self._chance = chance
 
     def worths(self, plans: Sequence[Plan], variants: int) -> NDArray[np.float64]:
-        """Mean worth of each plan over its noisy variants, (n,); with 0 variants, as it is intended."""
-        copies = max(1, variants)
-        shots = np.repeat([_columns(plan) for plan in plans], copies, axis=0)
-        if variants:
-            shots = self._disturbed(shots)
+        """Mean worth of each plan over so many noisy variants, (n,); without noise there is but one."""
+        copies = variants if self._spread.any() else 1
+        shots = self._disturbed(np.repeat([_columns(plan) for plan in plans], copies, axis=0))
         before = np.repeat([plan.before.positions for plan in plans], copies, axis=0)
         batch = simulate_batch(self._rules.table, before, shots)
         actions = [plan.action for plan in plans for _ in range(copies)]
