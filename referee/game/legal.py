@@ -62,9 +62,9 @@ def remaining(game: Game, seat: int) -> tuple[int, ...]:
     group = game.group_of(seat)
     on_table = game.state.balls
     if group is None:
-        return tuple(ball for ball in on_table if ball not in (0, EIGHT))
+        return tuple([ball for ball in on_table if ball not in (0, EIGHT)])
     own = _MEMBERS[group]
-    return tuple(ball for ball in on_table if ball in own)
+    return tuple([ball for ball in on_table if ball in own])
 
 
 def callable_balls(game: Game) -> tuple[int, ...]:

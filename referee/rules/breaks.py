@@ -1,5 +1,7 @@
 """R8 to R17: the break. What it was, and what follows."""
 
+from typing import NamedTuple
+
 from physics.facts import NEVER
 from referee.game import EIGHT, Decision, Evidence
 from referee.rules.fouls import no_ball_struck, worst
@@ -9,6 +11,16 @@ BALLS_TO_CUSHION = 4
 """R9: different object balls a legal break without a pocketed ball drives to cushions."""
 
 _RERACKS = (Decision.RERACK_AND_BREAK, Decision.OPPONENT_RERACKS)
+_AFTER_FOUL = (Decision.ACCEPT_TABLE, Decision.BALL_IN_HAND)
+_ABOUT_EIGHT = (Decision.SPOT_EIGHT, Decision.RERACK_AND_BREAK)
+
+
+class Choice(NamedTuple):
+    """What a rule lets a player choose: the rule, the seat that decides, the decisions."""
+
+    rule: str
+    decider: int
+    decisions: tuple[Decision, ...]
 
 
 def must_strike_a_ball(stroke: Stroke) -> Finding:
@@ -38,33 +50,52 @@ def break_evidence(stroke: Stroke) -> Evidence:
     return Evidence("R9", events, None if legal_break(stroke) else stroke.searched())
 
 
-def choice_after_illegal_break(found: Finding) -> tuple[str, tuple[Decision, ...]]:
-    """R12 and R12a: what the opponent may choose after an illegal break, without and with a foul."""
-    if not found:
-        return "R12", (Decision.ACCEPT_TABLE, *_RERACKS)
-    if worst(found) == "R32":
-        return "R12a", (Decision.BALL_IN_HAND, *_RERACKS)
-    return "R12a", (Decision.ACCEPT_TABLE, Decision.BALL_IN_HAND, *_RERACKS)
+def illegal_break(stroke: Stroke, found: Finding) -> Choice | None:
+    """R12: illegal without a foul, the opponent takes the table as it lies or asks for a new rack."""
+    if legal_break(stroke) or found:
+        return None
+    return Choice("R12", stroke.opponent, (Decision.ACCEPT_TABLE, *_RERACKS))
 
 
-def choice_after_eight(found: Finding) -> tuple[str, tuple[Decision, ...]] | None:
-    """R13 (no foul, the breaker chooses) and R14 (a scratch, the opponent does); None after another foul."""
-    if not found:
-        return "R13", (Decision.SPOT_EIGHT, Decision.RERACK_AND_BREAK)
-    if worst(found) == "R32":
-        return "R14", (Decision.SPOT_EIGHT, Decision.RERACK_AND_BREAK)
-    return None
+def illegal_break_with_foul(stroke: Stroke, found: Finding) -> Choice | None:
+    """R12a: the new racks of R12, or what the foul gives: no position to accept after a scratch."""
+    if legal_break(stroke) or not found:
+        return None
+    given = (Decision.BALL_IN_HAND,) if worst(found) == "R32" else _AFTER_FOUL
+    return Choice("R12a", stroke.opponent, (*given, *_RERACKS))
 
 
-def scratch_on_break(found: Finding) -> bool:
+def eight_on_break(stroke: Stroke, found: Finding) -> Choice | None:
+    """R13: the 8 pocketed without a foul, the breaker has it spotted or breaks again."""
+    if not stroke.eight_pocketed or found:
+        return None
+    return Choice("R13", stroke.shooter, _ABOUT_EIGHT)
+
+
+def eight_and_scratch_on_break(stroke: Stroke, found: Finding) -> Choice | None:
+    """R14: the 8 pocketed with a scratch, the opponent has it spotted or breaks himself."""
+    if not stroke.eight_pocketed or worst(found) != "R32":
+        return None
+    return Choice("R14", stroke.opponent, _ABOUT_EIGHT)
+
+
+def scratch_on_break(stroke: Stroke, found: Finding) -> bool:
     """R15: a scratch on a legal break gives the opponent ball in hand behind the head string."""
-    return worst(found) == "R32"
+    return legal_break(stroke) and worst(found) == "R32"
 
 
-def choice_after_foul(found: Finding) -> tuple[str, tuple[Decision, ...]]:
-    """R16 (an object ball off the table) and R17 (any other foul): accept the position, or ball in hand."""
-    rule = "R16" if any(one.rule == "R36" for one in found) else "R17"
-    return rule, (Decision.ACCEPT_TABLE, Decision.BALL_IN_HAND)
+def ball_off_on_break(stroke: Stroke, found: Finding) -> Choice | None:
+    """R16: after a legal break with an object ball off the table, accept the position or ball in hand."""
+    if not legal_break(stroke) or worst(found) != "R36":
+        return None
+    return Choice("R16", stroke.opponent, _AFTER_FOUL)
+
+
+def other_foul_on_break(stroke: Stroke, found: Finding) -> Choice | None:
+    """R17: the same choice after a legal break with any other foul."""
+    if not legal_break(stroke) or not found or worst(found) in ("R32", "R36"):
+        return None
+    return Choice("R17", stroke.opponent, _AFTER_FOUL)
 
 
 def breaker_continues(stroke: Stroke) -> Finding:
@@ -81,7 +112,7 @@ def breaker_passes(stroke: Stroke) -> Finding:
     return () if stroke.pocketed else (Evidence("R11", searched=stroke.searched()),)
 
 
-def eight_on_break(stroke: Stroke, rule: str) -> Finding:
+def eight_evidence(stroke: Stroke, rule: str) -> Finding:
     """Where and when the 8 was pocketed, cited under R13 or R14."""
     facts = stroke.facts
     return (Evidence(rule, (facts.pocketed[EIGHT],), ball=EIGHT, pocket=facts.pocket[EIGHT]),)

@@ -43,15 +43,14 @@ def safety_passes_turn(stroke: Stroke) -> Finding:
     return (Evidence("R26", tuple(stroke.facts.pocketed[ball] for ball in stroke.pocketed)),)
 
 
-def other_balls_pocketed(stroke: Stroke) -> Finding:
-    """R21 on an open table, R29 with groups: further balls pocketed decide nothing and stay down."""
-    rule = "R21" if stroke.game.groups is None else "R29"
-    call, facts = stroke.action.call, stroke.facts
-    called = call.ball if isinstance(call, Call) else None
-    others = (ball for ball in stroke.pocketed if ball != called)
-    return tuple(
-        Evidence(rule, (facts.pocketed[ball],), ball=ball, pocket=facts.pocket[ball]) for ball in others
-    )
+def other_balls_on_open_table(stroke: Stroke) -> Finding:
+    """R21: further balls pocketed on an open table do not decide the groups."""
+    return _other_balls(stroke, "R21") if stroke.game.groups is None else ()
+
+
+def other_balls_stay_down(stroke: Stroke) -> Finding:
+    """R29: further balls pocketed stay down, the opponent's included."""
+    return _other_balls(stroke, "R29") if stroke.game.groups is not None else ()
 
 
 def table_stays_open(stroke: Stroke, found: Finding) -> bool:
@@ -87,3 +86,12 @@ def assign(seat: int, group: Group) -> tuple[Group, Group]:
 
 def _cite(rule: str, found: Finding) -> Finding:
     return tuple(Evidence(rule, one.events, one.searched, one.ball, one.pocket) for one in found)
+
+
+def _other_balls(stroke: Stroke, rule: str) -> Finding:
+    call, facts = stroke.action.call, stroke.facts
+    called = call.ball if isinstance(call, Call) else None
+    others = (ball for ball in stroke.pocketed if ball != called)
+    return tuple(
+        Evidence(rule, (facts.pocketed[ball],), ball=ball, pocket=facts.pocket[ball]) for ball in others
+    )

@@ -66,7 +66,13 @@ class EightBall:
         return legal(game)
 
     def check(self, game: Game, action: Action) -> tuple[Refusal, ...]:
-        """All reasons why ``action`` cannot be accepted; empty when it may be played."""
+        """All reasons why ``action`` cannot be accepted; empty when it may be played.
+
+        Raises:
+            InvalidAction: not an ``Action`` at all.
+        """
+        if not isinstance(action, Action):
+            raise InvalidAction("action", action, "a referee.Action")
         return check_action(self.table, game, action)
 
     def apply(

@@ -33,6 +33,11 @@ def eight_made(stroke: Stroke, found: Finding) -> Finding:
     return _eight(stroke, "R46") if stroke.on_eight and _made_as_called(stroke) and not found else ()
 
 
+def foul_on_eight(stroke: Stroke, found: Finding) -> bool:
+    """R47: a foul while on the 8, which stays up, is a foul like any other: ball in hand."""
+    return bool(found) and stroke.on_eight and not stroke.eight_pocketed
+
+
 def end_by_eight(stroke: Stroke, found: Finding) -> tuple[Outcome, Finding] | None:
     """The outcome of a stroke that took the 8 out of play (not the break), with every rule that says so.
 

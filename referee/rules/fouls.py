@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from physics.facts import NEVER
 from physics.status import Status
-from referee.game import EIGHT, CueBallArea, Evidence, Phase, callable_balls
+from referee.game import EIGHT, CueBallArea, Evidence, Phase
 from referee.rules.stroke import CUE_BALL, Finding, Stroke
 
 MISCUES = (Status.CUE_OBSTRUCTED, Status.TIP_OFF_BALL)
@@ -26,33 +26,32 @@ def wrong_ball_first(stroke: Stroke) -> Finding:
 
     Of simultaneous first contacts the shooter is given the better one.
     """
-    struck = stroke.facts.struck_first
-    targets = callable_balls(stroke.game)
-    if not struck or any(ball in targets for ball in struck):
+    struck = stroke.struck
+    if not struck or any(ball in stroke.targets for ball in struck):
         return ()
     return tuple(_first_contact(stroke, "R33", ball) for ball in struck)
 
 
 def eight_first_on_open_table(stroke: Stroke) -> Finding:
     """R20: on an open table every ball but the 8 may be struck first."""
-    if stroke.game.groups is not None or stroke.facts.struck_first != (EIGHT,):
+    if stroke.game.groups is not None or stroke.struck != (EIGHT,):
         return ()
     return (_first_contact(stroke, "R20", EIGHT),)
 
 
 def no_ball_struck(stroke: Stroke) -> Finding:
     """R34: the cue ball strikes nothing."""
-    return () if stroke.facts.struck_first else (Evidence("R34", searched=stroke.searched()),)
+    return () if stroke.struck else (Evidence("R34", searched=stroke.searched()),)
 
 
 def no_cushion_after_contact(stroke: Stroke) -> Finding:
     """R35: no ball at all is pocketed, and after first contact no ball is driven to a cushion."""
     facts = stroke.facts
-    if not facts.struck_first or stroke.pocketed or facts.pocketed[CUE_BALL] != NEVER:
+    if not stroke.struck or stroke.pocketed or facts.pocketed[CUE_BALL] != NEVER:
         return ()
     if any(event != NEVER for event in facts.cushion_after_contact):
         return ()
-    contact = min(facts.first_contact[ball] for ball in facts.struck_first)
+    contact = min(facts.first_contact[ball] for ball in stroke.struck)
     return (Evidence("R35", searched=stroke.searched(contact)),)
 
 
@@ -71,14 +70,12 @@ def bad_play_from_kitchen(stroke: Stroke) -> Finding:
     facts = stroke.facts
     if stroke.game.cue_ball_in_hand is not CueBallArea.KITCHEN:
         return ()
-    if not facts.struck_first:
+    if not stroke.struck:
         never_crossed = facts.crossed_head_string == NEVER
         return (Evidence("R38", searched=stroke.searched()),) if never_crossed else ()
-    if facts.crossed_before_contact != NEVER or any(
-        _lies_beyond(stroke, ball) for ball in facts.struck_first
-    ):
+    if facts.crossed_before_contact != NEVER or any(_lies_beyond(stroke, ball) for ball in stroke.struck):
         return ()
-    return tuple(_first_contact(stroke, "R38", ball) for ball in facts.struck_first)
+    return tuple(_first_contact(stroke, "R38", ball) for ball in stroke.struck)
 
 
 def miscue(stroke: Stroke) -> Finding:

@@ -3,15 +3,13 @@
 from typing import NamedTuple
 
 from physics.state import TableState
-from referee.game import CueBallArea, Decision, Evidence, Game, Group, Outcome, Phase
+from referee.game import CueBallArea, Evidence, Game, Group, Outcome, Phase
 from referee.rules import breaks, calls
-from referee.rules.ending import end_by_eight
+from referee.rules.ending import end_by_eight, foul_on_eight
 from referee.rules.fouls import eight_first_on_open_table
 from referee.rules.spotting import spot, spotted_balls
 from referee.rules.stalemate import dry_visits_after
 from referee.rules.stroke import Finding, Stroke
-
-Choice = tuple[str, tuple[Decision, ...]]
 
 
 class Judgement(NamedTuple):
@@ -31,24 +29,30 @@ def judge(stroke: Stroke, found: Finding) -> Judgement:
 def judge_break(stroke: Stroke, found: Finding) -> Judgement:
     """R8 to R17."""
     evidence = (*found, *breaks.must_strike_a_ball(stroke), breaks.break_evidence(stroke))
-    if stroke.eight_pocketed and (choice := breaks.choice_after_eight(found)):
-        decider = stroke.opponent if found else stroke.shooter
-        proof = breaks.eight_on_break(stroke, choice[0])
-        return Judgement((choice[0],), evidence + proof, _ask(stroke, decider, choice, stroke.final))
+    if choice := breaks.eight_on_break(stroke, found) or breaks.eight_and_scratch_on_break(stroke, found):
+        proof = breaks.eight_evidence(stroke, choice.rule)
+        return Judgement((choice.rule,), evidence + proof, _ask(stroke, choice, stroke.final))
     state, spotting = _spotted(stroke)
-    if not breaks.legal_break(stroke):
-        choice = breaks.choice_after_illegal_break(found)
-        return Judgement((choice[0], *spotting), evidence, _ask(stroke, stroke.opponent, choice, state))
-    if breaks.scratch_on_break(found):
+    if choice := _choice(stroke, found):
+        return Judgement((choice.rule, *spotting), evidence, _ask(stroke, choice, state))
+    if breaks.scratch_on_break(stroke, found):
         game = _go_on(stroke, stroke.opponent, state, area=CueBallArea.KITCHEN)
         return Judgement(("R15", *spotting), evidence, game)
-    if found:
-        choice = breaks.choice_after_foul(found)
-        return Judgement((choice[0], *spotting), evidence, _ask(stroke, stroke.opponent, choice, state))
-    if proof := breaks.breaker_continues(stroke):
-        return Judgement(("R10", "R18"), evidence + proof, _go_on(stroke, stroke.shooter, state))
-    evidence += breaks.breaker_passes(stroke)
-    return Judgement(("R11", "R18"), evidence, _go_on(stroke, stroke.opponent, state))
+    continues = breaks.breaker_continues(stroke)
+    turn = stroke.shooter if continues else stroke.opponent
+    rules = ("R10" if continues else "R11", "R18")
+    evidence += continues or breaks.breaker_passes(stroke)
+    return Judgement(rules, evidence, _go_on(stroke, turn, state))
+
+
+def _choice(stroke: Stroke, found: Finding) -> breaks.Choice | None:
+    """What the break leaves to the opponent's choice, the 8 apart."""
+    return (
+        breaks.illegal_break(stroke, found)
+        or breaks.illegal_break_with_foul(stroke, found)
+        or breaks.ball_off_on_break(stroke, found)
+        or breaks.other_foul_on_break(stroke, found)
+    )
 
 
 def judge_play(stroke: Stroke, found: Finding) -> Judgement:
@@ -66,7 +70,7 @@ def judge_play(stroke: Stroke, found: Finding) -> Judgement:
         *calls.safety_passes_turn(stroke),
         *calls.called_ball_elsewhere(stroke),
         *calls.called_ball_missed(stroke),
-        *calls.other_balls_pocketed(stroke),
+        *_other_balls(stroke),
     )
     turn = stroke.shooter if continues else stroke.opponent
     game = _go_on(stroke, turn, stroke.final, groups=calls.groups_after(stroke, found))
@@ -76,10 +80,14 @@ def judge_play(stroke: Stroke, found: Finding) -> Judgement:
 def _foul(stroke: Stroke, found: Finding) -> Judgement:
     """A foul that does not end the game: ball in hand anywhere, an open table stays open (R22)."""
     rules = ("R41", *(("R22",) if calls.table_stays_open(stroke, found) else ()))
-    rules += ("R47",) if stroke.on_eight else ()
-    evidence = (*found, *eight_first_on_open_table(stroke), *calls.other_balls_pocketed(stroke))
+    rules += ("R47",) if foul_on_eight(stroke, found) else ()
+    evidence = (*found, *eight_first_on_open_table(stroke), *_other_balls(stroke))
     game = _go_on(stroke, stroke.opponent, stroke.final, groups=stroke.game.groups, area=CueBallArea.ANYWHERE)
     return Judgement((found[0].rule, *rules), evidence, game)
+
+
+def _other_balls(stroke: Stroke) -> Finding:
+    return calls.other_balls_on_open_table(stroke) or calls.other_balls_stay_down(stroke)
 
 
 def _spotted(stroke: Stroke) -> tuple[TableState, tuple[str, ...]]:
@@ -103,9 +111,9 @@ def _go_on(
     return _next(stroke, turn, state, Phase.PLAY, groups=groups, area=area)
 
 
-def _ask(stroke: Stroke, decider: int, choice: Choice, state: TableState) -> Game:
-    """The break leaves a choice to ``decider``."""
-    return _next(stroke, decider, state, Phase.DECISION, choice=choice)
+def _ask(stroke: Stroke, choice: breaks.Choice, state: TableState) -> Game:
+    """The break leaves a choice."""
+    return _next(stroke, choice.decider, state, Phase.DECISION, choice=choice)
 
 
 def _end(stroke: Stroke, outcome: Outcome) -> Game:
@@ -122,11 +130,10 @@ def _next(
     *,
     groups: tuple[Group, Group] | None = None,
     area: CueBallArea | None = None,
-    choice: tuple[str | None, tuple[Decision, ...]] = (None, ()),
+    choice: breaks.Choice | None = None,
     outcome: Outcome | None = None,
 ) -> Game:
     game = stroke.game
-    rule, decisions = choice
     return Game(
         state=state,
         phase=phase,
@@ -134,8 +141,8 @@ def _next(
         breaker=game.breaker,
         groups=groups,
         cue_ball_in_hand=area,
-        decisions=decisions,
-        choice=rule,
+        decisions=choice.decisions if choice else (),
+        choice=choice.rule if choice else None,
         stroke=game.stroke + 1,
         rack=game.rack,
         visit_strokes=game.visit_strokes + 1 if turn == game.turn else 0,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from physics.facts import NEVER, Facts
 from physics.state import TableState
 from physics.table import Table
-from referee.game import EIGHT, Action, Evidence, Game, Group, members, remaining
+from referee.game import EIGHT, Action, Evidence, Game, Group, callable_balls, members
 
 CUE_BALL = 0
 Finding = tuple[Evidence, ...]
@@ -24,6 +24,8 @@ class Stroke:
         final: the balls afterwards.
         pocketed: the object balls pocketed, however late they fell (R51: the simulation runs until every ball
             rests, so a ball that hangs at a pocket and drops belongs to the stroke), in order of numbers.
+        struck: the balls struck first, more than one when at the same instant.
+        targets: the balls the shooter may strike first; they are those that may be called.
         on_eight: the shooter's group was cleared before the stroke (R27).
     """
 
@@ -33,6 +35,8 @@ class Stroke:
     facts: Facts
     final: TableState
     pocketed: tuple[int, ...]
+    struck: tuple[int, ...]
+    targets: tuple[int, ...]
     on_eight: bool
 
     @property
@@ -63,17 +67,19 @@ class Stroke:
 
 def read_stroke(table: Table, game: Game, action: Action, facts: Facts, final: TableState) -> Stroke:
     """Gather what several rules ask for."""
-    return Stroke(table, game, action, facts, final, balls_pocketed(facts), group_cleared(game))
+    targets = callable_balls(game)
+    pocketed, struck = balls_pocketed(facts), facts.struck_first
+    return Stroke(table, game, action, facts, final, pocketed, struck, targets, group_cleared(targets))
 
 
 def balls_pocketed(facts: Facts) -> tuple[int, ...]:
     """R51: the object balls pocketed before every ball came to rest."""
-    return tuple(ball for ball in range(1, 16) if facts.pocketed[ball] != NEVER)
+    return tuple([ball for ball in range(1, 16) if facts.pocketed[ball] != NEVER])
 
 
-def group_cleared(game: Game) -> bool:
-    """R27: none of the shooter's group is on the table, so the 8 is on."""
-    return game.groups is not None and not remaining(game, game.turn)
+def group_cleared(targets: tuple[int, ...]) -> bool:
+    """R27: none of the shooter's group is on the table, so that only the 8 is left to play."""
+    return targets == (EIGHT,)
 
 
 def group_of_ball(ball: int) -> Group:

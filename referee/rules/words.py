@@ -111,7 +111,7 @@ def _foul(stroke: Stroke, rule: str) -> str:
         case "R32":
             return "the cue ball left the table"
         case "R33":
-            return " and ".join(map(ball_name, facts.struck_first)) + " struck first"
+            return " and ".join(map(ball_name, stroke.struck)) + " struck first"
         case "R34":
             return "no ball struck"
         case "R35":

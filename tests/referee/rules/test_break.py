@@ -188,6 +188,18 @@ def test_eight_on_the_break_is_the_breakers_choice() -> None:
     assert decide(played, Decision.RERACK_AND_BREAK).turn == 0
 
 
+def test_eight_is_spotted_behind_the_ball_on_the_foot_spot() -> None:
+    """R31: touching it, on the long string, towards the foot cushion."""
+    balls = CORNERED_EIGHT | {3: TABLE.foot_spot}
+    played = play(to_break(balls), pot(balls, 8, 5, v=3.0))
+    assert objects_pocketed(played) == [8]
+    assert played.game.state.position(3) == TABLE.foot_spot
+    eight = decide(played, Decision.SPOT_EIGHT).state.position(8)
+    assert eight is not None
+    assert eight[0] == TABLE.foot_spot[0]
+    assert eight[1] == pytest.approx(TABLE.foot_spot[1] - 2 * TABLE.ball_radius, abs=1e-15)
+
+
 def test_eight_and_scratch_on_the_break_is_the_opponents_choice() -> None:
     """R14."""
     played = play(to_break(CORNERED_EIGHT), pot(CORNERED_EIGHT, 8, 5, v=3.0, b=15.0))

@@ -6,6 +6,7 @@ import pytest
 from support.situations import RULES, SOLIDS, TABLE, R, situation, stroke
 
 from physics.shot import Shot
+from referee.errors import InvalidAction
 from referee.game import Action, CueBallArea, Decision, Game, Phase
 
 BALLS = {0: (0.6, 1.118), 3: (0.9, 1.0), 8: (0.3, 0.5), 11: (0.5, 0.4), 12: (0.3, 1.9)}
@@ -124,6 +125,11 @@ def test_intended_stroke_that_cannot_be_played_is_refused(shot: Shot) -> None:
 def test_lowest_elevation_is_accepted() -> None:
     """R39, the other side."""
     assert refused(situation(BALLS, groups=SOLIDS), None, stroke(BALLS, 0.0, 2.0)) == []
+
+
+def test_not_an_action() -> None:
+    with pytest.raises(InvalidAction, match="action = None"):
+        RULES.check(situation(BALLS), None)  # type: ignore[arg-type]
 
 
 def test_wrong_kind_of_action() -> None:
