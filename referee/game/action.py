@@ -94,6 +94,8 @@ class Action:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> "Action":
         """Read what ``to_dict`` wrote, or raise ``InvalidAction`` (for the stroke itself ``InvalidShot``)."""
+        if not isinstance(data, Mapping):
+            raise InvalidAction("action", data, "an object with a shot or a decision")
         unknown = set(data) - {"shot", "call", "cue_ball", "decision"}
         if unknown:
             raise InvalidAction("action", sorted(unknown), "the keys shot, call, cue_ball, decision")
@@ -116,8 +118,10 @@ def _integer(field: str, value: Any, allowed: str) -> int:
 
 
 def _call(value: Any) -> Call | Literal["safety"] | None:
-    if value is None or value == SAFETY or isinstance(value, Call):
-        return value  # type: ignore[no-any-return]
+    if value is None or isinstance(value, Call):
+        return value
+    if isinstance(value, str) and value == SAFETY:
+        return SAFETY
     if isinstance(value, Mapping) and set(value) == {"ball", "pocket"}:
         return Call(value["ball"], value["pocket"])
     raise InvalidAction("call", value, 'a Call, {"ball": , "pocket": }, "safety" or None')
@@ -128,8 +132,10 @@ def _point(value: Any) -> tuple[float, float] | None:
         return None
     try:
         x, y = value
+        if isinstance(x, str | bool) or isinstance(y, str | bool):
+            raise TypeError
         return float(x), float(y)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InvalidAction("cue_ball", value, "two numbers (x, y) in metres, or None") from None
 
 

@@ -112,8 +112,7 @@ class Game:
             InvalidGame: a key is missing or unknown, or a value is not one of its kind.
             physics.InvalidState: the balls do not lie on a table.
         """
-        if set(data) != _NAMES:
-            raise InvalidGame("game", sorted(set(data) ^ _NAMES), f"exactly the keys {sorted(_NAMES)}")
+        _check_shape(data)
         return cls(
             state=TableState.from_dict(data["state"]),
             phase=_member(Phase, "phase", data["phase"]),
@@ -131,6 +130,19 @@ class Game:
 _COUNTS = ("stroke", "rack", "visit_strokes", "dry_visits", "replays")
 _PLAIN = ("turn", "breaker", "choice", *_COUNTS)
 _NAMES = {field.name for field in fields(Game)}
+
+_SHAPES: dict[str, type] = {"state": Mapping, "decisions": list}
+
+
+def _check_shape(data: Any) -> None:
+    if not isinstance(data, Mapping):
+        raise InvalidGame("game", data, "an object")
+    if set(data) != _NAMES:
+        raise InvalidGame("game", sorted(set(data) ^ _NAMES), f"exactly the keys {sorted(_NAMES)}")
+    for name, shape in _SHAPES.items():
+        if not isinstance(data[name], shape):
+            raise InvalidGame(name, data[name], "an object" if shape is Mapping else "a list")
+
 
 E = TypeVar("E", bound=StrEnum)
 

@@ -61,6 +61,8 @@ def test_game_round_trips_through_json_and_pickle(game: Game) -> None:
         ("groups", 3),
         ("cue_ball_in_hand", "floor"),
         ("decisions", ["sleep"]),
+        ("decisions", 5),
+        ("state", [1]),
         ("outcome", {"winner": 0, "reason": "luck", "rule": "R46"}),
         ("outcome", {"winner": 2, "reason": "eight_made", "rule": "R46"}),
         ("outcome", {"winner": 0}),
@@ -118,6 +120,9 @@ def test_action_takes_plain_values() -> None:
         ("call.pocket", {"shot": SHOT, "call": {"ball": 3, "pocket": True}}),
         ("cue_ball", {"shot": SHOT, "cue_ball": (0.5,)}),
         ("cue_ball", {"shot": SHOT, "cue_ball": "here"}),
+        ("cue_ball", {"shot": SHOT, "cue_ball": "12"}),
+        ("cue_ball", {"shot": SHOT, "cue_ball": (True, 1.0)}),
+        ("cue_ball", {"shot": SHOT, "cue_ball": (10**400, 1.0)}),
         ("cue_ball", {"shot": SHOT, "cue_ball": 4}),
         ("decision", {"decision": "sleep"}),
         ("decision", {"decision": 3}),
@@ -133,6 +138,8 @@ def test_malformed_action_is_refused_by_name(field: str, arguments: dict[str, An
 def test_action_from_unknown_keys_or_bad_shot() -> None:
     with pytest.raises(InvalidAction, match="chalk"):
         Action.from_dict({"shot": SHOT.to_dict(), "chalk": True})
+    with pytest.raises(InvalidAction, match="an object"):
+        Action.from_dict(["shot"])  # type: ignore[arg-type]
     with pytest.raises(InvalidShot, match="v"):
         Action.from_dict({"shot": {"v": 11.0, "phi": 0.0}})
 
