@@ -30,9 +30,9 @@ class RefereeError(ValueError):
         return type(self), (self.field, self.value, self.allowed)
 
 
-class InvalidAction(RefereeError):
+class InvalidAction(RefereeError):  # noqa: N818 - named like the physics' InvalidShot
     """Not a well-formed action, or an action given to ``apply`` that the game does not await."""
 
 
-class InvalidGame(RefereeError):
+class InvalidGame(RefereeError):  # noqa: N818
     """Game data (from a file, from the wire) that does not describe a game."""
