@@ -36,6 +36,7 @@
             └── Draining
 """
 
+import contextlib
 from typing import ClassVar
 
 import httpx2
@@ -283,11 +284,14 @@ def error_of(response: httpx2.Response) -> ApiError:
 
 
 def _problem(response: httpx2.Response) -> Problem | None:
-    """The body as a problem document, None when it is not one."""
-    try:
-        return Problem.model_validate_json(response.content)
-    except ValidationError:
-        return None
+    """The body as a problem document, None when it is not one.
+
+    Its code decides what is raised; a view that a newer or older server words differently must not hide it.
+    """
+    for left_out in ({}, {"view": None}):
+        with contextlib.suppress(ValidationError, ValueError, TypeError):
+            return Problem.model_validate(response.json() | left_out)
+    return None
 
 
 def _kinds(base: type[ApiError]) -> list[type[ApiError]]:

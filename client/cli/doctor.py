@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 import typer
 
-from client.cli.output import Json, emit, fail
+from client.cli.output import Json, emit, fail, say
 
 PACKAGES = ("physics", "referee", "server", "client")
 LIBRARIES = ("numpy", "numba", "pydantic", "httpx2", "typer", "rich")
