@@ -22,6 +22,8 @@ class Happening:
     ball: int
     other: int
     states: dict[int, tuple[complex, complex]]
+    settled: bool = False
+    """Did the contact rule part or settle balls at the same time? Then the states are not those of the impact."""
 
     @property
     def key(self) -> tuple[str, int, int]:
@@ -29,6 +31,8 @@ class Happening:
 
 
 def from_truth(records: Iterable[Record]) -> list[Happening]:
+    known = list(records)
+    settled = {r.time for r in known if r.kind in UNRECORDED}
     return [
         Happening(
             r.time,
@@ -36,8 +40,9 @@ def from_truth(records: Iterable[Record]) -> list[Happening]:
             r.ball,
             r.other,
             {b.number: (complex(b.position), complex(b.velocity)) for b in r.states},
+            r.time in settled,
         )
-        for r in records
+        for r in known
         if r.kind not in UNRECORDED
     ]
 
@@ -60,9 +65,9 @@ def partners(one: Sequence[Happening], two: Sequence[Happening]) -> list[Happeni
 
 
 def lone(events: Sequence[Happening], index: int) -> bool:
-    """Is no other event within TIE of this one?"""
+    """Is no other event within TIE of this one, and no contact settled?"""
     time = events[index].time
-    return all(abs(e.time - time) > TIE for e in events[max(0, index - 1) : index + 2] if e is not events[index])
+    return not events[index].settled and all(abs(e.time - time) > TIE for e in events[max(0, index - 1) : index + 2] if e is not events[index])
 
 
 def position_error(one: Happening, two: Happening) -> float:

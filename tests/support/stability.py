@@ -33,11 +33,12 @@ def nudged(stroke: Stroke) -> list[Stroke]:
 def told(positions: Positions, stroke: Stroke, world: World, *, digits: int = 50, max_events: int = 10_000) -> Told:
     """The stable beginning of a shot."""
     options = {"digits": digits, "max_events": max_events}
-    events = from_truth(play(positions, stroke, world, **options).records)
+    records = play(positions, stroke, world, **options).records
+    events = from_truth(records)
     stable, moved = len(events), [0.0] * len(events)
     for other in nudged(stroke):
         also = partners(events, from_truth(play(positions, other, world, **options).records))
         stable = min(stable, len(also))
         for k, event in enumerate(also):
             moved[k] = max(moved[k], float(abs(event.time - events[k].time)))
-    return Told(events[:stable], stable == len(events) < max_events, moved[:stable])
+    return Told(events[:stable], stable == len(events) and len(records) < max_events, moved[:stable])

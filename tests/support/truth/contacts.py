@@ -123,6 +123,7 @@ def remove_remainder(cluster: Cluster) -> None:
             n = normal(one, two)
             one.velocity -= rest / 2 * n
             two.velocity += rest / 2 * n
+            cluster.note("contact", one.number, two.number)
 
 
 def reclassify(cluster: Cluster) -> None:

@@ -16,6 +16,9 @@ from support.truth.roots import first_fall
 CLEAR = 1e-7
 """Margin of the float filter (m for lines, m^2 for squared distances): a million times its rounding."""
 
+STILL = 1e-30
+"""m/s, m/s^2; a ball that runs along a cushion has no velocity and no acceleration across it but rounding."""
+
 ORDER = ("ball_collision", "rail_collision", "pocket_collision", "transition")
 
 
@@ -109,11 +112,21 @@ def line_contact(world: World, ball: Ball, line: Line, time: mpf) -> Event | Non
         return None
     t = first_fall(deflated(p, p[1], world) if touch else p, span)
     if t is None:
-        return None
+        rides = touch and line.side_pocket >= 0 and max(abs(p[1]), abs(p[2])) < STILL
+        return horn_contact(world, ball, line, time) if rides else None
     pocket = line.side_pocket if in_side_mouth(world, line, c + b * t + a * t * t) else line.pocket
     if pocket >= 0:
         return Event(time + t, "pocket_collision", ball.number, pocket)
     return Event(time + t, "rail_collision", ball.number, line.cushion)
+
+
+def horn_contact(world: World, ball: Ball, line: Line, time: mpf) -> Event | None:
+    """When a ball that runs along a long cushion comes to the side mouth's horn, where the mouth opens under it."""
+    c, b, a = path(world, ball, time)
+    side = 1 if c.imag > world.length / 2 else -1
+    p = [side * (c.imag - world.length / 2) - world.side_mouth / 2, side * b.imag, side * a.imag]
+    t = first_fall(p, moving_until(world, ball) - time)
+    return None if t is None else Event(time + t, "pocket_collision", ball.number, line.side_pocket)
 
 
 def own_event(world: World, sides: Sequence[Line], ball: Ball, time: mpf) -> Event | None:
