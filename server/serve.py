@@ -29,8 +29,9 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Start, then announce the address."""
         await super().startup(sockets)
-        for listener in sockets or []:
-            print(json.dumps({"event": "listening", "url": _url(listener)}), flush=True)  # noqa: T201
+        if self.started:
+            url = _url(*self.servers[0].sockets[0].getsockname()[:2])
+            print(json.dumps({"event": "listening", "url": url}), flush=True)  # noqa: T201
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
@@ -50,15 +51,16 @@ class _Server(uvicorn.Server):
 
 
 def serve(settings: Settings, host: str, port: int) -> None:
-    """Serve until a signal; port 0 takes a free one. Raises OSError when the address is taken.
+    """Serve until a signal; port 0 takes a free one. Exits with 3 when the address is taken.
 
     The first line on standard output is `{"event": "listening", "url": "http://127.0.0.1:8080"}`, written
     once connections are accepted; the log goes to standard error.
     """
     app = create_app(settings)
-    listener = _listen(host, port)
     config = uvicorn.Config(
         app,
+        host=host,
+        port=port,
         http="h11",
         ws="none",
         lifespan="on",
@@ -67,16 +69,10 @@ def serve(settings: Settings, host: str, port: int) -> None:
         log_level="warning",
         timeout_graceful_shutdown=max(1, round(settings.drain_seconds)),
     )
-    with listener:
-        _Server(config, app.state.context).run(sockets=[listener])
+    _Server(config, app.state.context).run()
 
 
-def _listen(host: str, port: int) -> socket.socket:
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    return socket.create_server((host, port), family=family, backlog=2048, reuse_port=False)
-
-
-def _url(listener: socket.socket) -> str:
-    host, port = listener.getsockname()[:2]
+def _url(host: str, port: int) -> str:
+    """The address to connect to for somebody on this machine."""
     reachable = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
     return f"http://[{reachable}]:{port}" if ":" in reachable else f"http://{reachable}:{port}"

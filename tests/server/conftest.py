@@ -2,7 +2,9 @@
 
 import itertools
 import json
+import math
 import os
+import random
 import secrets
 import signal
 import subprocess
@@ -117,6 +119,7 @@ class Table:
         response = self.organiser.post("/v1/matches", request)
         assert response.status_code == 201, response.text
         self.match = response.json()
+        self.news: tuple[list[dict[str, Any]], list[dict[str, Any]]] = ([], [])
 
     @property
     def game(self) -> str:
@@ -125,11 +128,45 @@ class Table:
         return str(match["played"][-1]["id"])
 
     def mover(self) -> tuple[Player, dict[str, Any]]:
-        """Who is to play, and the view delivered for it."""
+        """Who is to play, and the view delivered for it; news that comes before it is put aside in `news`."""
         turn = self.organiser.get(f"/v1/games/{self.game}").json()["view"]["turn"]
-        message = self.players[turn].turn()
-        assert message["type"] == "turn"
+        while (message := self.players[turn].turn())["type"] != "turn":
+            self.news[turn].append(message)
         return self.players[turn], message["view"]
+
+    def play(self, strokes: int, seed: int = 1) -> list[dict[str, Any]]:
+        """Play on with both hands, at random but legally; the answers, at most so many, fewer at the end."""
+        chance = random.Random(seed)
+        answers: list[dict[str, Any]] = []
+        while len(answers) < strokes and self.is_running:
+            mover, view = self.mover()
+            response = mover.act(view, scripted(view, chance))
+            assert response.status_code in (200, 422), response.text
+            answers += [response.json()] if response.status_code == 200 else []
+        return answers
+
+    @property
+    def is_running(self) -> bool:
+        """Whether the match goes on."""
+        status = self.organiser.get(f"/v1/matches/{self.match['id']}").json()["status"]
+        return bool(status == "running")
+
+
+def scripted(view: dict[str, Any], chance: random.Random) -> dict[str, Any]:
+    """Something to do: the first decision allowed, or a shot at a ball that may be called, into any pocket."""
+    allowed, balls = view["allowed"], dict(view["balls"])
+    if "decision" in allowed["actions"]:
+        return {"decision": allowed["decisions"][0]}
+    cue_ball = None
+    if area := view["cue_ball_area"]:
+        cue_ball = balls["0"] = [chance.uniform(*area["x"]), chance.uniform(*area["y"])]
+    target = chance.choice(view["callable_balls"] or [1])
+    (x, y), (to_x, to_y) = balls["0"], balls[str(target)]
+    phi = math.degrees(math.atan2(to_y - y, to_x - x)) + chance.choice((1, 1, 1, 90)) * chance.uniform(-2, 2)
+    call = {"ball": target, "pocket": chance.randrange(6)} if allowed["call_required"] else None
+    v, theta = 9.0 if call is None else chance.uniform(1, 6), chance.uniform(20, 65)
+    shot = {"v": v, "phi": phi, "theta": theta, "a": 0.0, "b": 0.0}
+    return {"shot": shot, "call": call, "cue_ball": cue_ball}
 
 
 def register(server: Running) -> Player:
