@@ -1,13 +1,13 @@
 """`random`: any legal action. The weakest opponent, and the smallest complete example of an agent."""
 
 from collections.abc import Sequence
-from typing import TypeVar
+from typing import Literal, TypeVar
 
 import physics
 from client.agent import Agent
 from client.agents.chance import generator
 from client.geometry import Point, is_free
-from referee import Action, Call, CueBallArea
+from referee import SAFETY, Action, Call, CueBallArea
 from referee.wire import View
 
 Choice = TypeVar("Choice")
@@ -42,10 +42,12 @@ class RandomAgent(Agent):
         state = view.state if place is None else view.state.moved(0, place)
         return Action(shot=self._shot(view.table_model(), state), call=self._call(view), cue_ball=place)
 
-    def _call(self, view: View) -> Call | None:
-        """Any ball that may be called, into any pocket."""
+    def _call(self, view: View) -> Call | Literal["safety"] | None:
+        """Any ball that may be called, into any pocket; a safety when only the 8 is left on an open table."""
         if not view.allowed.call_required:
             return None
+        if not view.callable_balls:
+            return SAFETY
         return Call(self._any(view.callable_balls), int(self._chance.integers(6)))
 
     def _place(self, view: View) -> Point | None:

@@ -46,6 +46,8 @@ class Judge:
 
     def pocketed(self, plans: Sequence[Plan], balls: Sequence[int]) -> list[Call | None]:
         """For each plan the first of `balls` that it sends into a pocket as intended, as a call."""
+        if not balls:
+            return [None] * len(plans)
         before = np.array([plan.before.positions for plan in plans])
         batch = simulate_batch(self._rules.table, before, np.array([_columns(plan) for plan in plans]))
         into = batch.pocket[:, list(balls)]

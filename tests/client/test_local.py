@@ -1,0 +1,114 @@
+"""`client.play`: whole matches without a server."""
+
+import logging
+
+import pytest
+
+import client
+import physics
+from referee.record import verify_record
+
+CONCEDE = client.Action(decision="concede")
+
+
+class Conceding(client.Agent):
+    """Gives up at once."""
+
+    def choose(self, view):
+        return CONCEDE
+
+
+class Hopeless(client.Agent):
+    """Never answers with an action."""
+
+    def choose(self, view):
+        raise LookupError("no idea")
+
+
+def test_the_same_seed_plays_the_same_match():
+    once, again = (client.play("random", "random", seed=11) for _ in range(2))
+    assert list(once.games[0].record()) == list(again.games[0].record())
+    other = client.play("random", "random", seed=12)
+    assert list(other.games[0].record()) != list(once.games[0].record())
+
+
+def test_the_break_alternates_and_points_add_up():
+    match = client.play(Conceding, Conceding, games=4, seed=1)
+    breakers = [game.header.start.breaker for game in match.games]
+    assert breakers in ([0, 1, 0, 1], [1, 0, 1, 0])
+    assert match.score == (2.0, 2.0)
+    assert match.winner is None
+    assert match.players == ("Conceding-1", "Conceding-2")
+
+
+def test_an_agent_that_never_acts_forfeits_with_its_reasons_logged(caplog):
+    with caplog.at_level(logging.ERROR, "pooliad.agent"):
+        match = client.play(Hopeless, "random", seed=2)
+    assert match.games[0].outcome.reason == "forfeit"
+    assert match.winner == "random"
+    assert len(caplog.records) == 20
+    assert "no idea" in caplog.records[0].exc_text
+
+
+def test_hooks_and_one_instance_a_game():
+    told = []
+
+    class Diary(client.Agent):
+        def __init__(self):
+            self.views = 0
+
+        def game_started(self, view):
+            self.views += 1
+
+        def choose(self, view):
+            assert self.views == 1
+            return CONCEDE
+
+        def game_over(self, over):
+            told.append((over.number, over.seat, over.won, over.score, over.view.outcome.reason))
+
+    client.play(Diary, "random", games=2, seed=3)
+    assert [number for number, *_ in told] == [0, 1]
+    assert told[-1][3] == (0.0, 2.0)
+    assert {(seat, won, reason) for _, seat, won, _, reason in told} == {(0, False, "concession")}
+
+
+def test_a_fault_in_a_hook_does_not_stop_the_match(caplog):
+    class Fragile(Conceding):
+        def game_over(self, over):
+            raise RuntimeError("in the hook")
+
+    match = client.play(Fragile, "random", seed=4)
+    assert match.winner == "random"
+    assert "in the hook" in caplog.text
+
+
+def test_a_local_record_verifies(tmp_path):
+    record = tmp_path / "game.jsonl"
+    record.write_text("\n".join(client.play("random", "random", seed=5).games[0].record()) + "\n")
+    assert verify_record(record).ok
+
+
+def test_noise_and_table_are_those_asked_for():
+    table = physics.Table.olympiad().replace(mu_slide=0.25)
+    strokes = []
+    match = client.play("random", "random", seed=6, noise=0.0, table=table, on_stroke=strokes.append)
+    assert match.games[0].header.rules.table == table
+    shots = [stroke for stroke in strokes if stroke.shot is not None]
+    assert all(stroke.shot == stroke.action.shot for stroke in shots)
+    assert len(strokes) == len(match.games[0].strokes)
+
+
+@pytest.mark.parametrize("name", ["nobody", "no.such.module:Agent", "client:Pooliad", "client:Nothing"])
+def test_an_agent_that_cannot_be_found_is_named(name):
+    with pytest.raises(client.PooliadError, match=name.partition(":")[0]):
+        client.load(name)
+
+
+def test_an_agent_goes_by_import_path(monkeypatch, tmp_path):
+    (tmp_path / "my_agents.py").write_text(
+        "import client\n\n\nclass Mine(client.Agent):\n    def choose(self, view):\n"
+        "        return client.Action(decision='concede')\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    assert client.play("my_agents:Mine", "random", seed=7).players == ("Mine", "random")
