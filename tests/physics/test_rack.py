@@ -111,6 +111,7 @@ def test_other_gaps_never_overlap_and_hold_on_average(gap):
     near = np.concatenate([np.sort(distances(rack(TABLE, seed=seed, gap=gap)))[:30] for seed in range(20)])
     assert near.min() > DIAMETER
     assert near.mean() == pytest.approx(DIAMETER + gap, abs=0.1 * min(gap, 1e-6))
+    assert near.std() > 0.1 * min(gap, 2e-6)  # jittered, not the lattice of the last resort
 
 
 def test_jitter_has_the_olympiads_sigma():
