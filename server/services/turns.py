@@ -50,7 +50,7 @@ async def _wait(hint: asyncio.Event, seconds: float) -> None:
 def next_message(context: Context, agent: str) -> bytes | None:
     """News first, each once; else the turn that waits, again and again until it is played."""
     with context.database.reading() as connection:
-        if _news(connection, agent) is None and _waiting_turn(connection, agent) is None:
+        if _news(connection, agent) is None and _waiting_turn(connection, agent, context.time.now()) is None:
             return None
     with context.writing() as writing:
         connection, now = writing.connection, writing.now
@@ -58,7 +58,7 @@ def next_message(context: Context, agent: str) -> bytes | None:
             this = notices.c.sequence == news.sequence
             connection.execute(update(notices).where(this).values(delivered_at=now))
             return str(news.message).encode()
-        turn = _waiting_turn(connection, agent)
+        turn = _waiting_turn(connection, agent, now)
         return None if turn is None else _delivered(connection, turn, agent, now)
 
 
@@ -67,9 +67,9 @@ def _news(connection: Connection, agent: str) -> Row[Any] | None:
     return connection.execute(select(notices).where(waiting).order_by(notices.c.sequence).limit(1)).first()
 
 
-def _waiting_turn(connection: Connection, agent: str) -> Row[Any] | None:
-    """A turn not delivered yet goes before one that was."""
-    turns = select(games).where(games.c.mover == agent)
+def _waiting_turn(connection: Connection, agent: str, now: int) -> Row[Any] | None:
+    """A turn not delivered yet goes before one that was; one whose time is out waits for the timer alone."""
+    turns = select(games).where(games.c.mover == agent, games.c.deadline > now)
     return connection.execute(turns.order_by(games.c.delivered, games.c.available_at).limit(1)).first()
 
 

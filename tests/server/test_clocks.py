@@ -1,0 +1,133 @@
+"""Time per agent per game, measured by the server alone; R48: a time-out is its own end reason."""
+
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+
+from referee.record import verify_record
+
+
+def seconds_left(table, seat):
+    game = table.organiser.get(f"/v1/games/{table.game}").json()
+    return game["view"]["clocks"][seat]["seconds_left"]
+
+
+def test_the_clock_starts_with_the_first_delivery_and_goes_on_at_the_next(new_table):
+    table = new_table(clock={"seconds": 100.0})
+    seat = table.match["first_breaker"]
+    assert seconds_left(table, seat) == 100.0
+    table.mover()
+    time.sleep(0.3)
+    first = seconds_left(table, seat)
+    table.mover()
+    assert 99.0 < seconds_left(table, seat) < first < 99.75
+    assert seconds_left(table, 1 - seat) == 100.0
+
+
+def test_a_turn_nobody_fetches_starts_its_clock_by_itself(own_server, table_at):
+    server = own_server(POOLIAD_FETCH_GRACE="0.3")
+    table = table_at(server, clock={"seconds": 100.0})
+    time.sleep(1.0)
+    assert 99.0 < seconds_left(table, table.match["first_breaker"]) < 99.5
+
+
+def test_the_time_of_a_stroke_is_charged_and_the_other_clock_stands(new_table, break_shot):
+    table = new_table(clock={"seconds": 100.0})
+    mover, view = table.mover()
+    time.sleep(0.3)
+    answer = mover.act(view, break_shot).json()
+    seat = view["seat"]
+    assert 99.0 < answer["clocks"][seat]["seconds_left"] <= 99.7
+    assert answer["clocks"][1 - seat] == {"seconds_left": 100.0, "running": False}
+
+
+def test_a_refused_shot_costs_time_and_nothing_else(new_table, break_shot):
+    table = new_table(clock={"seconds": 100.0})
+    mover, view = table.mover()
+    before = seconds_left(table, view["seat"])
+    assert mover.act(view, break_shot | {"call": "safety"}).status_code == 422
+    assert seconds_left(table, view["seat"]) < before
+    assert mover.act(view, break_shot).status_code == 200
+
+
+def test_a_timer_ends_the_game_without_being_asked(new_table):
+    table = new_table(clock={"seconds": 0.4})
+    mover, view = table.mover()
+    other = table.players[1 - view["seat"]]
+    message = other.turn(wait=5)
+    assert message["type"] == "game_over"
+    assert message["outcome"] == {"winner": 1 - view["seat"], "reason": "time_out", "rule": "R48"}
+    assert message["won"] is True
+    assert message["view"]["clocks"][view["seat"]] == {"seconds_left": 0.0, "running": False}
+    assert mover.turn()["outcome"]["reason"] == "time_out"
+    record = table.organiser.get(f"/v1/games/{view['game']}/record").text.splitlines()
+    assert verify_record(record).ok
+
+
+def test_a_game_never_fetched_ends_by_the_timer(own_server, table_at):
+    table = table_at(own_server(POOLIAD_FETCH_GRACE="0.2"), clock={"seconds": 0.3})
+    message = table.players[1 - table.match["first_breaker"]].turn(wait=5)
+    assert message["outcome"]["reason"] == "time_out"
+
+
+def test_a_shot_that_comes_too_late_is_refused_before_the_timer_has_looked(own_server, table_at, break_shot):
+    table = table_at(own_server(POOLIAD_TIMER_PERIOD="3"), clock={"seconds": 0.4})
+    mover, view = table.mover()
+    time.sleep(0.5)
+    response = mover.act(view, break_shot)
+    assert (response.status_code, response.json()["code"]) == (409, "out_of_time")
+    assert mover.turn(wait=10)["outcome"]["reason"] == "time_out"
+
+
+def test_the_clock_stops_when_the_body_is_complete(new_table, break_shot):
+    """A body that trickles in is on the mover's clock; what the server does with it is not."""
+    table = new_table(clock={"seconds": 100.0})
+    mover, view = table.mover()
+
+    def trickle():
+        for part in (b"{", b" ", b"}"):
+            time.sleep(0.2)
+            yield part
+
+    headers = {
+        "Content-Type": "application/json",
+        "If-Match": f'"{view["version"]}"',
+        "Idempotency-Key": "slow",
+    }
+    response = mover.request("POST", f"/v1/games/{view['game']}/shots", content=trickle(), headers=headers)
+    assert response.status_code == 422
+    answer = mover.act(view, break_shot).json()
+    assert answer["clocks"][view["seat"]]["seconds_left"] < 99.4
+
+
+def test_downtime_costs_nobody_anything(own_server, table_at):
+    server = own_server()
+    table = table_at(server, clock={"seconds": 100.0})
+    table.mover()
+    time.sleep(0.5)
+    server.stop()
+    time.sleep(1.5)
+    server.start()
+    seat = table.match["first_breaker"]
+    assert 98.9 < seconds_left(table, seat) < 99.5
+    assert table.players[seat].turn()["view"]["clocks"][seat]["seconds_left"] > 98.9
+
+
+def test_clocks_of_many_games_are_flagged_at_once(new_table):
+    tables = [new_table(clock={"seconds": 0.3}) for _ in range(4)]
+    for table in tables:
+        table.mover()
+    with ThreadPoolExecutor(4) as pool:
+        seats = [1 - table.match["first_breaker"] for table in tables]
+        messages = list(pool.map(lambda table, seat: table.players[seat].turn(), tables, seats))
+    assert {message["outcome"]["reason"] for message in messages} == {"time_out"}
+
+
+@pytest.mark.parametrize("verb", ["shots", "decisions", "concede"])
+def test_nothing_counts_after_the_time_is_out(own_server, table_at, break_shot, verb):
+    table = table_at(own_server(POOLIAD_TIMER_PERIOD="3"), clock={"seconds": 0.2})
+    mover, view = table.mover()
+    time.sleep(0.3)
+    response = mover.post(f"/v1/games/{view['game']}/{verb}", break_shot, version=view["version"])
+    assert response.json()["code"] == "out_of_time"
