@@ -18,6 +18,7 @@ SIGMA_V = 0.075
 """m/s."""
 
 LEVEL_MAX = 5.0
+"""The greatest level: five times the Olympiad's standard deviations."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """The record of a game: canonical JSON lines, and their verification with nothing else at hand."""
 
-from referee.record.canonical import canonical, digest
+from referee.record.canonical import canonical
 from referee.record.difference import Difference
 from referee.record.engine import Engine, this_engine
 from referee.record.lines import FORMAT, Header, end_entry, record_lines, stroke_entry
@@ -17,7 +17,6 @@ __all__ = [
     "Verdict",
     "Verification",
     "canonical",
-    "digest",
     "end_entry",
     "read_record",
     "record_lines",

@@ -1,6 +1,5 @@
 """Canonical JSON (RFC 8785): one value, one text, so that a digest means the value."""
 
-import hashlib
 import json
 import math
 from typing import Any, NoReturn
@@ -15,11 +14,6 @@ def canonical(value: Any) -> str:
         rfc8785.CanonicalizationError: NaN, infinity, an integer beyond 2^53, or something that is not JSON.
     """
     return rfc8785.dumps(value).decode()
-
-
-def digest(value: Any) -> str:
-    """SHA-256 of the canonical text, hex."""
-    return hashlib.sha256(rfc8785.dumps(value)).hexdigest()
 
 
 def plain(value: Any) -> Any:

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from physics.errors import PhysicsError
 from referee.errors import InvalidGame, RefereeError
 from referee.game import Action, EndReason, Game, Outcome
-from referee.play import GameSeeds, Refused, play_stroke, seed_from_hex, start_game
+from referee.play import Clocks, GameSeeds, Refused, play_stroke, seed_from_hex, start_game
 from referee.record.canonical import plain
 from referee.record.difference import Difference, first_difference
 from referee.record.engine import Engine, this_engine
@@ -99,7 +99,7 @@ class _Replay:
         self.record = record
         self.header = header
         self.seeds = _seeds(record.end)
-        self.used_ns = [0, 0]
+        self.charges: list[tuple[int, int]] = []
 
     def run(self) -> Verification:
         """Verify the whole record."""
@@ -128,7 +128,7 @@ class _Replay:
         action = _read("action", Action.from_dict, entry.get("action"), line)
         elapsed_ns = entry.get("elapsed_ns")
         if elapsed_ns is not None:
-            self.used_ns[game.turn] += _charge(elapsed_ns, line)
+            self.charges.append((game.turn, _charge(elapsed_ns, line)))
         index = None if action.shot is None else game.stroke
         try:
             stroke = play_stroke(self.header.rules, game, action, self.seeds, self.header.noise)
@@ -145,7 +145,7 @@ class _Replay:
         if not isinstance(elapsed_ns, list) or len(elapsed_ns) != 2:
             raise InvalidRecord(f"line {line}, elapsed_ns", elapsed_ns, "must be two integers, by seat")
         for seat in (0, 1):
-            self.used_ns[seat] += _charge(elapsed_ns[seat], line)
+            self.charges.append((seat, _charge(elapsed_ns[seat], line)))
         recorded = _read("outcome", Outcome.from_dict, end.get("outcome"), line)
         outcome = game.outcome or self._ended_outside(game, recorded)
         if outcome is None:
@@ -167,7 +167,9 @@ class _Replay:
 
     def _is_out_of_time(self, seat: int | None) -> bool:
         allowance_ns = self.header.allowance_ns
-        return seat is not None and allowance_ns is not None and self.used_ns[seat] >= allowance_ns
+        if seat is None or allowance_ns is None:
+            return False
+        return Clocks.from_charges(allowance_ns, self.charges).is_out_of_time(seat)
 
 
 def _seeds(end: Mapping[str, Any]) -> GameSeeds:

@@ -1,7 +1,7 @@
 """Agents: registration and tokens."""
 
 from datetime import datetime
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import ConfigDict, Field, StringConstraints
 
@@ -40,6 +40,3 @@ class AgentList(Message):
 
     agents: tuple[AgentView, ...]
     next_cursor: str | None = None
-
-
-Role = Literal["agent", "organiser"]

@@ -68,10 +68,6 @@ class StrokeDetail(StrokeView):
             }
         return cls.model_validate(_summary(stroke, index) | details)
 
-    def summary(self) -> StrokeView:
-        """The same stroke without its events."""
-        return StrokeView.model_construct(**{name: getattr(self, name) for name in StrokeView.model_fields})
-
 
 def since_own_last(strokes: Sequence[StrokeView], seat: int | None) -> tuple[StrokeView, ...]:
     """The strokes a view shows: from the reader's own last one on; for a spectator (None) the last alone."""

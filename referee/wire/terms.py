@@ -4,10 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
+from referee.play.noise import LEVEL_MAX
 from referee.wire.values import Flag, Message, Number, Request
-
-NOISE_MAX = 5.0
-"""The greatest noise level: five times the Olympiad's sigmas."""
 
 
 class NoiseTerms(Request):
@@ -18,7 +16,7 @@ class NoiseTerms(Request):
         told: whether the players are told the level.
     """
 
-    level: Annotated[Number, Field(ge=0, le=NOISE_MAX)] = 1.0
+    level: Annotated[Number, Field(ge=0, le=LEVEL_MAX)] = 1.0
     told: Flag = True
 
 
