@@ -1,0 +1,12 @@
+"""Which benchmarks there are."""
+
+BENCHMARKS = {
+    "speed": "kernel time per event against a square root and a division; calls, traces, threads, imports",
+    "stress": "hostile random shots by class: does every one end, inside the table, without overlap?",
+    "constants": "what each constant of the contact rule changes when it is ten times larger or smaller",
+    "error_vs_time": "run time against error: this engine, time stepping, scipy's solve_ivp",
+    "paper_claims": "the paper's operation counts and its comparison of quartic solvers, measured again",
+    "scaling": "balls, threads, batch size; cost of an event where nothing is near",
+    "savings": "counters of the work done and skipped, and what each saving is worth",
+}
+"""Module in this package to one line about it."""

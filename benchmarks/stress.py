@@ -1,0 +1,200 @@
+"""Hostile random shots by class. Every shot has to end at rest, or refused by name: no NaN, escape, overlap, endless loop.
+
+A failure is reported with its class, seed and row, and as a scene that can be pasted into a test.
+"""
+
+import concurrent.futures
+import dataclasses
+import multiprocessing
+import os
+import time
+from collections import Counter
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+import physics
+from benchmarks import hostile, soundness
+from benchmarks.command import main
+from benchmarks.recording import Row, Tables
+
+CHUNK = {"limits of the table": 200}
+"""Shots simulated together, by class: one table each."""
+USUAL_CHUNK = 2_000
+
+PATIENCE = 300.0
+"""s; a chunk that takes longer is reported as an endless loop. Usual: one."""
+
+INSTANTS = 120
+"""Instants looked at in the flight of a traced shot."""
+
+SHOWN = 3
+"""Failures of a kind written out for each chunk."""
+
+
+@dataclasses.dataclass
+class Tally:
+    """Sums over shots of one class."""
+
+    shots: int = 0
+    events: int = 0
+    most_events: int = 0
+    seconds: float = 0.0
+    flights: int = 0
+    overlap: float = 0.0
+    flight_overlap: float = 0.0
+    beyond: float = 0.0
+    status: Counter[str] = dataclasses.field(default_factory=Counter)
+    faults: Counter[str] = dataclasses.field(default_factory=Counter)
+    failures: list[Row] = dataclasses.field(default_factory=list)
+
+    def add(self, other: "Tally") -> None:
+        """Take in another tally of the class."""
+        for name in ("shots", "events", "seconds", "flights"):
+            setattr(self, name, getattr(self, name) + getattr(other, name))
+        for name in ("most_events", "overlap", "flight_overlap", "beyond"):
+            setattr(self, name, max(getattr(self, name), getattr(other, name)))
+        self.status += other.status
+        self.faults += other.faults
+        self.failures += other.failures
+
+    def row(self, kind: str) -> Row:
+        """One line of the table."""
+        return {
+            "class": kind,
+            "shots": self.shots,
+            "at_rest": self.status["AT_REST"],
+            "refused": self.shots - self.status["AT_REST"] - self.status["EVENT_LIMIT"],
+            "event_limit": self.status["EVENT_LIMIT"],
+            "nan": self.faults["nan"],
+            "escapes": self.faults["escape"],
+            "overlaps": self.faults["overlap"],
+            "endless": self.faults["endless"],
+            "events_per_shot": round(self.events / max(self.shots, 1), 1),
+            "most_events": self.most_events,
+            "worst_overlap_m": self.overlap,
+            "flights": self.flights,
+            "worst_overlap_in_flight_m": self.flight_overlap,
+            "worst_beyond_line_m": self.beyond,
+            "us_per_shot": round(self.seconds / max(self.shots, 1) * 1e6, 1),
+        }
+
+
+def measure(full: bool) -> Tables:
+    """Run every class; a million shots in all when ``full``."""
+    shots, flights = (92_000, 2_000) if full else (4_000, 200)
+    tallies = run(shots, flights, processes=len(os.sched_getaffinity(0)))
+    rows = [tally.row(kind) for kind, tally in tallies.items()]
+    failures = [failure for tally in tallies.values() for failure in tally.failures]
+    return {"by_class": rows, "failures": failures}
+
+
+def run(shots: int, flights: int, processes: int) -> dict[str, Tally]:
+    """``shots`` of each class, ``flights`` of them followed instant by instant, in worker processes."""
+    tallies = {kind: Tally() for kind in hostile.CLASSES}
+    jobs = [job for kind in hostile.CLASSES for job in chunks(kind, shots, flights)]
+    context = multiprocessing.get_context("spawn")
+    physics.simulate_batch(*nothing())  # compiles before there are several processes to do it
+    pool = concurrent.futures.ProcessPoolExecutor(processes, mp_context=context)
+    futures = {pool.submit(attempt, *job): job for job in jobs}
+    started, done = time.monotonic(), 0
+    while futures:
+        finished, _ = concurrent.futures.wait(
+            futures, PATIENCE, return_when=concurrent.futures.FIRST_COMPLETED
+        )
+        if not finished:
+            for kind, seed, n, _ in list(futures.values())[:processes]:
+                tallies[kind].faults["endless"] += 1
+                tallies[kind].failures.append({"class": kind, "seed": seed, "row": -1, "fault": f"endless, of {n}"})
+            for process in list(pool._processes.values()):  # type: ignore[union-attr]
+                process.kill()
+            break
+        for future in finished:
+            kind = futures.pop(future)[0]
+            tallies[kind].add(future.result())
+            done += 1
+        print(f"\r{done} of {len(jobs)} chunks, {time.monotonic() - started:.0f} s", end="", flush=True)
+    print()
+    pool.shutdown(wait=False, cancel_futures=True)
+    return tallies
+
+
+def nothing() -> tuple[physics.Table, physics.TableState, list[list[float]]]:
+    """A shot without balls."""
+    return physics.Table.olympiad(), physics.TableState.from_positions({}), [[1.0, 0.0, 0.0, 0.0, 0.0]]
+
+
+def chunks(kind: str, shots: int, flights: int) -> Iterator[tuple[str, int, int, int]]:
+    """(class, seed, shots, flights) of each chunk of a class."""
+    size = min(CHUNK.get(kind, USUAL_CHUNK), shots)
+    number = -(-shots // size)
+    for index in range(number):
+        yield kind, 1000 + index, size, -(-flights // number)
+
+
+def scene_of(kind: str, seed: int, n: int) -> tuple[physics.Table, hostile.Floats, hostile.Floats]:
+    """Table, states and shots of a chunk: the same for the same seed."""
+    rng = np.random.default_rng([seed, *kind.encode()])
+    table = hostile.table_for(kind, rng)
+    return table, *hostile.CLASSES[kind](table, rng, n)
+
+
+def attempt(kind: str, seed: int, n: int, flights: int) -> Tally:
+    """Simulate one chunk and judge it."""
+    table, states, shots = scene_of(kind, seed, n)
+    started = time.thread_time()
+    batch = physics.simulate_batch(table, states, shots)
+    seconds = time.thread_time() - started
+    verdict = soundness.judge(table, states, batch)
+    tally = Tally(
+        shots=n,
+        events=int(batch.n_events.sum()),
+        most_events=int(batch.n_events.max()),
+        seconds=seconds,
+        overlap=float(verdict.overlap.max()),
+        beyond=float(verdict.beyond.max()),
+        status=Counter({physics.Status(s).name: int((batch.status == s).sum()) for s in set(batch.status.tolist())}),
+    )
+    for fault, found in verdict.faults.items():
+        tally.faults[fault] += int(found.sum())
+        for row in soundness.first_rows(found, SHOWN).tolist():
+            tally.failures.append(failure(kind, seed, row, fault, table, states[row], shots[row]))
+    for row in soundness.first_rows(batch.status == physics.Status.AT_REST, flights).tolist():
+        follow(tally, kind, seed, row, table, states[row], shots[row], batch)
+    return tally
+
+
+def follow(
+    tally: Tally, kind: str, seed: int, row: int, table: physics.Table, state: Any, shot: Any, batch: physics.Batch
+) -> None:
+    """Simulate one shot again with its trace and look at instants of its flight."""
+    result = physics.simulate(table, physics.TableState.trusted(state.copy()), physics.Shot(*shot.tolist()))
+    deep, out, finite = soundness.judge_flight(table, result, INSTANTS)
+    tally.flights += 1
+    tally.flight_overlap = max(tally.flight_overlap, deep)
+    tally.beyond = max(tally.beyond, out)
+    permitted = max(float(soundness.overlap(table, state[None])[0]), soundness.PERMITTED)
+    faults = {
+        "nan": not finite,
+        "overlap": deep > permitted,
+        "escape": out > max(float(soundness.beyond(table, state[None])[0]), soundness.PERMITTED),
+        "batch differs": result.final.positions.tobytes() != batch.positions[row].tobytes(),
+    }
+    for fault, found in faults.items():
+        if found:
+            tally.faults[fault] += 1
+            tally.failures.append(failure(kind, seed, row, f"{fault} in flight", table, state, shot))
+
+
+def failure(kind: str, seed: int, row: int, fault: str, table: physics.Table, state: Any, shot: Any) -> Row:
+    """A failed shot with all it takes to repeat it."""
+    balls = {ball: place for ball, place in enumerate(state.tolist()) if place[0] == place[0]}
+    base = physics.Table.olympiad().to_dict()
+    changes = {name: value for name, value in table.to_dict().items() if value != base[name]}
+    scene = f"table.replace(**{changes!r}), TableState.from_positions({balls!r}), Shot(*{shot.tolist()!r})"
+    return {"class": kind, "seed": seed, "row": row, "fault": fault, "scene": scene}
+
+
+if __name__ == "__main__":
+    main("stress", measure)
