@@ -1,0 +1,110 @@
+"""``result.at``, ``resume``, traces and batches: other ways to the same shot."""
+
+import math
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from support.audit import instants, moved, resting
+from support.play import OPEN, joint, play, state_of
+from support.scenes import RADIUS, Scene, scenes
+
+import physics
+
+CONTINUITY = 1e-12
+"""m; ``at`` against the closed form, and across events."""
+
+
+@settings(max_examples=150)
+@given(scenes(), st.floats(0.0, 1.0))
+def test_at_follows_the_closed_form(scene: Scene, fraction: float):
+    """[I]: between events every ball moves by the formulas of its state."""
+    result = play(scene)
+    t = fraction * result.duration
+    last = {ball: (0.0, resting(ball, place)) for ball, place in scene.positions.items()}
+    for time, events in instants(result):
+        if time <= t:
+            last |= {state.ball: (time, state) for event in events for state in event.states}
+    snapshot = result.at(t)
+    for ball, (since, state) in last.items():
+        if state.motion is physics.Motion.POCKETED:
+            assert np.isnan(snapshot.positions[ball]).all()
+            continue
+        now = moved(OPEN, state, t - since)
+        assert math.dist(snapshot.positions[ball], now.position) <= CONTINUITY
+        assert math.dist(snapshot.velocities[ball], now.velocity) <= 1e-11
+        assert math.dist(snapshot.spins[ball], now.spin) * RADIUS <= 1e-11
+        assert snapshot.motion[ball] == state.motion
+
+
+@settings(max_examples=100)
+@given(scenes())
+def test_at_is_continuous_across_events(scene: Scene):
+    """Positions just before and at an event differ by no more than the ball can move in between."""
+    result = play(scene)
+    for time, events in instants(result):
+        before = max(0.0, math.nextafter(time, 0.0))
+        one, two = result.at(before), result.at(min(time, result.duration))
+        gone = {state.ball for event in events for state in event.states if state.motion.name == "POCKETED"}
+        for ball in set(scene.positions) - gone:
+            p, q = one.positions[ball], two.positions[ball]
+            assert np.isnan(p).all() == np.isnan(q).all()
+            if not np.isnan(p).any():
+                assert math.dist(p, q) <= CONTINUITY + 20.0 * (time - before)
+
+
+@settings(max_examples=100)
+@given(scenes())
+def test_at_an_event_shows_the_state_after_it(scene: Scene):
+    result = play(scene)
+    for time, events in instants(result):
+        after = {state.ball: state for event in events for state in event.states}
+        snapshot = result.at(time)
+        for ball, state in after.items():
+            assert snapshot.motion[ball] == state.motion
+            if state.motion.name != "POCKETED":
+                assert tuple(snapshot.velocities[ball]) == state.velocity
+                assert tuple(snapshot.positions[ball]) == state.position
+
+
+def end_difference(one: physics.Result, two: physics.Result) -> float:
+    assert set(one.final.balls) == set(two.final.balls)
+    return max((math.dist(one.final.position(b), two.final.position(b)) for b in one.final.balls), default=0.0)
+
+
+@settings(max_examples=200)
+@given(scenes(), st.floats(0.0, 1.0))
+def test_split_and_resume(scene: Scene, fraction: float):
+    """Stopping the clock at any time and going on gives the same events and ends."""
+    result = play(scene)
+    t = fraction * result.duration
+    rest = physics.resume(OPEN, result.at(t))
+    if joint(result) and t == 0.0:
+        return
+    expected = [(e.kind, e.ball, e.other) for e in result.events if e.time > t]
+    assert sorted((e.kind, e.ball, e.other) for e in rest.events) == sorted(expected)
+    assert abs(rest.duration + t - result.duration) <= 1e-9
+    assert end_difference(result, rest) <= 1e-9
+
+
+@settings(max_examples=150)
+@given(scenes())
+def test_with_or_without_trace(scene: Scene):
+    traced, plain = play(scene), play(scene, trace=False)
+    assert traced.final == plain.final
+    assert (traced.duration, traced.n_events, traced.status) == (plain.duration, plain.n_events, plain.status)
+    assert repr(traced.facts) == repr(plain.facts)
+
+
+@settings(max_examples=40)
+@given(st.lists(scenes(), min_size=1, max_size=8), st.sampled_from([1, 2]))
+def test_batches_have_the_bits_of_single_shots(drawn: list[Scene], threads: int):
+    positions = np.stack([state_of(scene).positions for scene in drawn])
+    shots = np.array([scene.stroke for scene in drawn])
+    batch = physics.simulate_batch(OPEN, positions, shots, threads=threads)
+    for i, scene in enumerate(drawn):
+        single = play(scene, trace=False)
+        assert batch.positions[i].tobytes() == single.final.positions.tobytes()
+        assert batch.duration[i] == single.duration
+        assert batch.n_events[i] == single.n_events
+        assert repr(physics.Facts.from_record(batch.facts[i])) == repr(single.facts)

@@ -1,0 +1,61 @@
+"""Bits of a fixed set of shots: ``python -m support.bits`` prints a hash of every result, one line a scene.
+
+Run in processes with other numba settings, it shows whether they change a bit. The inputs are rounded, so that they
+are the same wherever this runs.
+"""
+
+import hashlib
+import sys
+from collections.abc import Iterator
+
+import numpy as np
+from support.scenes import RADIUS
+from support.worlds import mid_game, stroke_at
+
+import physics
+
+Play = tuple[str, physics.Table, physics.TableState, physics.Shot]
+
+
+def plays() -> Iterator[Play]:
+    """Breaks, mid-game shots, touching and frozen scenes, both tables; the first ones are the cheapest."""
+    rng = np.random.default_rng(99)
+    consistent = physics.Table.olympiad().replace(cue_test=False)
+    for n in (2, 5, 9, 16):
+        positions = {ball: (round(x, 9), round(y, 9)) for ball, (x, y) in mid_game(rng, n).items()}
+        s = stroke_at(rng, positions)
+        shot = physics.Shot(*(round(value, 6) for value in (s.v, s.phi, s.theta, s.a, s.b)))
+        state = physics.TableState.from_positions(positions)
+        yield f"mid-game, {n} balls", consistent, state, shot
+        yield f"mid-game, {n} balls, historical", physics.Table.fastfiz(), state, shot
+    row = {0: (0.5, 1.5), **{i: (0.5, 1.2 - 2 * i * RADIUS) for i in range(1, 5)}}
+    frozen = {0: (0.5, 0.8), 1: (0.5, RADIUS), 2: (0.5 + 2 * RADIUS, RADIUS), 3: (RADIUS, 0.6)}
+    yield "row", consistent, physics.TableState.from_positions(row), physics.Shot(2.0, 270.0, 0.0, 1.0, 5.0)
+    yield "frozen", consistent, physics.TableState.from_positions(frozen), physics.Shot(3.0, 268.0, 3.0)
+    lossy = consistent.replace(e_ball=0.9, mu_ball=0.2)
+    yield "frozen, lossy", lossy, physics.TableState.from_positions(frozen), physics.Shot(3.0, 268.0, 3.0)
+    for gap in (None, 0.0):
+        state = physics.rack(consistent, "eight_ball", seed=3, gap=gap)
+        yield f"break, gap {gap}", consistent, state, physics.Shot(9.0, 269.7, 4.0, 2.0, 3.0)
+
+
+def digest(play: Play) -> str:
+    """SHA-256 over the whole trace and the end of a shot."""
+    _, table, state, shot = play
+    result = physics.simulate(table, state, shot)
+    text = hashlib.sha256(result.final.positions.tobytes())
+    for event in result.events:
+        numbers = [event.time, event.ball, event.other]
+        for ball in event.states:
+            numbers += [*ball.position, *ball.velocity, *ball.spin, ball.motion]
+        text.update(event.kind.value.encode() + np.array(numbers).tobytes())
+    return text.hexdigest()
+
+
+def main(limit: int) -> None:
+    for play, _ in zip(plays(), range(limit), strict=False):
+        print(f"{digest(play)}  {play[0]}")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 1_000)
