@@ -12,6 +12,7 @@ from server import openapi
 from server.errors import ServerError, handle_fault, handle_framework_error, handle_server_error
 from server.routes import ROUTERS
 from server.security.body_gate import BodyGate
+from server.services import warmup
 from server.services.context import Context
 from server.services.timer import Timer
 from server.settings import Settings
@@ -34,6 +35,7 @@ def create_app(settings: Settings) -> FastAPI:
         lifespan=_lifespan(context),
         docs_url=None,
         redoc_url=None,
+        redirect_slashes=False,
         exception_handlers={
             ServerError: handle_server_error,
             HTTPException: handle_framework_error,
@@ -53,6 +55,7 @@ def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManag
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         upgrade(context.database)
         context.wakeups.start()
+        warmup.start(context)
         async with Timer(context).running():
             yield
         context.wakeups.drain()

@@ -24,14 +24,12 @@ class Settings:
 
     database: str = "sqlite:///pooliad.db"
     organiser_digest: str | None = None
-    game_seconds: float = 300.0
     fetch_grace: float = 5.0
     timer_period: float = 0.2
     poll_recheck: float = 2.0
     longest_wait: float = 60.0
     body_limit: int = 2 * 1024 * 1024
     body_seconds: float = 10.0
-    batch_limit: int = 10_000
     drain_seconds: float = 5.0
 
     def __post_init__(self) -> None:
@@ -44,7 +42,7 @@ class Settings:
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str]) -> "Settings":
-        """Settings from `POOLIAD_DATABASE`, `POOLIAD_ORGANISER_TOKEN`, `POOLIAD_GAME_SECONDS`, …
+        """Settings from `POOLIAD_DATABASE`, `POOLIAD_ORGANISER_TOKEN`, `POOLIAD_BODY_LIMIT`, …
 
         Raises `SettingsError` naming the variable, its value and what is allowed.
         """

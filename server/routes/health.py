@@ -18,7 +18,11 @@ def healthz() -> dict[str, str]:
 
 @router.get("/readyz", **describe(Draining, token=False), summary="The server can take games")
 def readyz(context: Server) -> dict[str, str]:
-    """The database answers and has this version's tables, and the server is not shutting down."""
-    if context.wakeups.draining.is_set() or not is_current(context.database):
-        raise Draining("the server is shutting down or its database is not ready")
+    """The kernels are loaded, the database has this version's tables, and the server is not shutting down."""
+    if context.wakeups.draining.is_set():
+        raise Draining("the server is shutting down")
+    if not context.warm.is_set():
+        raise Draining("the physics kernels are being loaded")
+    if not is_current(context.database):
+        raise Draining("the database has the tables of another version")
     return {"status": "ready"}

@@ -30,6 +30,8 @@ class BodyGate:
             return await self._app(scope, receive, send)
         try:
             body = await self._collect(scope, receive)
+        except _HungUp:
+            return None
         except ServerError as error:
             return await render(error, scope["path"])(scope, receive, send)
         scope.setdefault("state", {}).update(body=body, arrived=self._time.now())
@@ -48,6 +50,8 @@ class BodyGate:
         body = bytearray()
         while True:
             message = await receive()
+            if message["type"] == "http.disconnect":
+                raise _HungUp
             body += message.get("body", b"")
             if len(body) > self._limit:
                 raise self._too_large()
@@ -60,6 +64,10 @@ class BodyGate:
             field="body",
             allowed=f"at most {self._limit} bytes",
         )
+
+
+class _HungUp(Exception):
+    """The caller left before the body was complete: nobody to answer, and nothing to carry out."""
 
 
 def _announced_length(scope: Scope) -> int:

@@ -1,5 +1,6 @@
 """What every service works with: made once by `create_app`, handed down, never global."""
 
+import threading
 from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,13 +19,16 @@ from server.store.database import Database
 class Context:
     """One server's parts.
 
-    `in_hand`: for each game the arrival times of the requests that are being worked on.
+    Attributes:
+        warm: set when the kernels are loaded.
+        in_hand: for each game the arrival times of the requests that are being worked on.
     """
 
     settings: Settings
     database: Database
     time: TimeSource = field(default_factory=TimeSource)
     wakeups: Wakeups = field(default_factory=Wakeups)
+    warm: threading.Event = field(default_factory=threading.Event)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
 
     @property

@@ -1,5 +1,6 @@
 """The physics alone, for clients in any language."""
 
+import dataclasses
 import math
 from typing import Any
 
@@ -39,7 +40,7 @@ def simulate(request: SimulateRequest) -> SimulateAnswer:
         duration=result.duration,
         n_events=result.n_events,
         balls=_balls(result.final.positions),
-        facts=_plain(result.facts.to_dict()),
+        facts=_plain(dataclasses.asdict(result.facts)) | {"status": result.status.name.lower()},
         events=tuple(EventView.of(event) for event in result.events) if request.trace else None,
     )
 

@@ -7,8 +7,8 @@ from collections.abc import AsyncIterator
 from dataclasses import replace
 from typing import Any
 
-from anyio.to_thread import run_sync
 from sqlalchemy import select, update
+from starlette.concurrency import run_in_threadpool
 
 from referee.game import EndReason
 from server.services import games as course
@@ -28,7 +28,7 @@ class Timer:
     @contextlib.asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
         """The timer at work for as long as the block lasts."""
-        await run_sync(resume_clocks, self._context)
+        await run_in_threadpool(resume_clocks, self._context)
         task = asyncio.create_task(self._run())
         try:
             yield
@@ -36,13 +36,13 @@ class Timer:
             task.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await task
-            await run_sync(stop_clocks, self._context)
+            await run_in_threadpool(stop_clocks, self._context)
 
     async def _run(self) -> None:
         while True:
             await asyncio.sleep(self._context.settings.timer_period)
             try:
-                await run_sync(flag, self._context)
+                await run_in_threadpool(flag, self._context)
             except Exception:
                 log.exception("the timer failed; it goes on")
 

@@ -4,8 +4,8 @@ import asyncio
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-from anyio.to_thread import run_sync
 from sqlalchemy import Connection, Row, select, update
+from starlette.concurrency import run_in_threadpool
 
 from referee.wire import Turn
 from server.services.context import Context
@@ -29,7 +29,7 @@ async def wait_for_message(
     try:
         while not context.wakeups.draining.is_set() and not await is_gone():
             hint.clear()
-            if (message := await run_sync(next_message, context, agent)) is not None:
+            if (message := await run_in_threadpool(next_message, context, agent)) is not None:
                 return message
             left = end - loop.time()
             if left <= 0:

@@ -153,7 +153,7 @@ class Table:
 
 
 def scripted(view: dict[str, Any], chance: random.Random) -> dict[str, Any]:
-    """Something to do: the first decision allowed, or a shot at a ball that may be called, into any pocket."""
+    """Something to do: the first decision allowed, or a shot at a ball that may be called."""
     allowed, balls = view["allowed"], dict(view["balls"])
     if "decision" in allowed["actions"]:
         return {"decision": allowed["decisions"][0]}
@@ -195,7 +195,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
 
 @pytest.fixture
 def own_server(tmp_path: Path) -> Iterator[Callable[..., Running]]:
-    """Makes a server of the test's own, with settings from environment variables, to be stopped as it likes."""
+    """Makes a server of the test's own, with settings from the environment, to be stopped as it likes."""
     started: list[Running] = []
 
     def make(**environment: str) -> Running:
@@ -223,7 +223,7 @@ def new_table(server: Running) -> Callable[..., Table]:
     return lambda **terms: Table(server, **terms)
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def table_at() -> Callable[..., Table]:
     """The same at a server of the test's own."""
     return Table

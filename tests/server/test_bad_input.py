@@ -238,7 +238,7 @@ def test_ten_megabytes_in_chunks_are_refused(at_break):
 
 def test_a_slow_body_is_not_waited_for(own_server):
     running = own_server(POOLIAD_BODY_SECONDS="0.3")
-    head = b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 50\r\n\r\n{"
+    head = b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nContent-Length: 50\r\n\r\n{"
     assert first_line(running, head).startswith("HTTP/1.1 408 ")
 
 

@@ -1,4 +1,4 @@
-"""CONTRACT: `Idempotency-Key`. A request is carried out once, however often it comes; only accepted ones count."""
+"""CONTRACT: `Idempotency-Key`. A request is carried out once, however often it comes."""
 
 from concurrent.futures import ThreadPoolExecutor
 

@@ -110,7 +110,7 @@ def test_the_organiser_has_no_turns(organiser):
 def test_a_signal_sends_open_polls_home_and_stops_the_server_within_seconds(own_server, table_at):
     server = own_server()
     table = table_at(server)
-    mover, view = table.mover()
+    _, view = table.mover()
     other = table.players[other_seat(view)]
     statuses = []
     polls = [

@@ -28,7 +28,7 @@ CODE = {
 
 
 def games_of(new_table, break_shot):
-    """Two games, one running and one finished, in each of which both players have shot with the key "used"."""
+    """Two games, one running, one finished, in each of which both players have shot with the key "used"."""
     tables = new_table(noise={"level": 0.0}), new_table(noise={"level": 0.0})
     for table in tables:
         shooters = set()

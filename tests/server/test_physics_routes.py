@@ -1,0 +1,130 @@
+"""CONTRACT, HTTP: the physics alone, for any language, with the library's own numbers."""
+
+import math
+
+import numpy as np
+import pytest
+
+import physics
+
+BALLS = {"0": [0.5, 1.7], "3": [0.4, 0.6], "8": [0.7, 0.5]}
+SHOT = {"v": 2.0, "phi": 260.0, "theta": 8.0, "a": 0.0, "b": 3.0}
+
+
+@pytest.fixture
+def state():
+    return physics.TableState.from_dict(BALLS)
+
+
+def ask(player, path, **body):
+    response = player.request("POST", path, json={"balls": BALLS} | body)
+    assert response.status_code == 200, response.text
+    return response.json()
+
+
+def test_simulate_gives_the_librarys_bits(new_player, state):
+    answer = ask(new_player(), "/v1/simulate", shot=SHOT)
+    result = physics.simulate(physics.Table.olympiad(), state, physics.Shot(**SHOT))
+    assert answer["balls"] == result.final.to_dict()
+    assert answer["duration"] == result.duration
+    assert answer["n_events"] == result.n_events == len(answer["events"])
+    assert answer["status"] == "at_rest"
+    assert [event["kind"] for event in answer["events"]] == [str(event.kind) for event in result.events]
+    assert answer["events"][0]["states"][0]["velocity"] == list(result.events[0].states[0].velocity)
+
+
+def test_simulate_without_a_trace(new_player):
+    answer = ask(new_player(), "/v1/simulate", shot=SHOT, trace=False)
+    assert answer["events"] is None
+    assert answer["n_events"] > 1
+
+
+def test_a_shot_that_cannot_be_played_is_an_answer(new_player):
+    answer = ask(new_player(), "/v1/simulate", shot=SHOT | {"a": 40.0})
+    assert (answer["status"], answer["balls"], answer["n_events"]) == ("tip_off_ball", BALLS, 0)
+
+
+@pytest.mark.parametrize("table", ["fastfiz", {"name": "olympiad", "mu_slide": 0.25}])
+def test_another_table(new_player, state, table):
+    answer = ask(new_player(), "/v1/simulate", shot=SHOT, table=table)
+    changed = {"name": table} if isinstance(table, str) else table
+    result = physics.simulate(physics.Table.from_dict(changed), state, physics.Shot(**SHOT))
+    assert answer["balls"] == result.final.to_dict()
+
+
+def test_a_batch_gives_the_librarys_bits(new_player, state):
+    shots = [SHOT | {"phi": 255.0 + i} for i in range(20)]
+    answer = ask(new_player(), "/v1/simulate/batch", shots=shots)
+    rows = np.array([[shot[name] for name in ("v", "phi", "theta", "a", "b")] for shot in shots])
+    batch = physics.simulate_batch(physics.Table.olympiad(), state, rows)
+    for i, row in enumerate(answer["results"]):
+        assert row["n_events"] == batch.n_events[i]
+        assert row["duration"] == batch.duration[i]
+        for ball in range(16):
+            expected = batch.positions[i, ball].tolist()
+            assert row["balls"].get(str(ball)) == (None if math.isnan(expected[0]) else expected)
+            pocket = int(batch.pocket[i, ball])
+            assert row["pocketed"].get(str(ball)) == (pocket if pocket >= 0 else None)
+
+
+def test_a_batch_with_a_table_for_each_shot(new_player):
+    player = new_player()
+    other = BALLS | {"0": [0.6, 1.5]}
+    answer = player.request(
+        "POST", "/v1/simulate/batch", json={"tables": [BALLS, other], "shots": [SHOT, SHOT]}
+    ).json()
+    for balls, row in zip((BALLS, other), answer["results"], strict=True):
+        assert row["balls"] == ask(player, "/v1/simulate", balls=balls, shot=SHOT)["balls"]
+
+
+def test_min_elevation(new_player, state):
+    answer = ask(new_player(), "/v1/min-elevation", phi=260.0, b=3.0)
+    assert answer["theta"] == physics.min_elevation(physics.Table.olympiad(), state, 260.0, 0.0, 3.0)
+
+
+def test_min_elevation_where_there_is_none(new_player):
+    balls = {"0": [0.5, 0.5], "1": [0.5, 0.5 + 2 * 0.028575 + 1e-6]}
+    answer = ask(new_player(), "/v1/min-elevation", balls=balls, phi=270.0)
+    table, state = physics.Table.olympiad(), physics.TableState.from_dict(balls)
+    expected = physics.min_elevation(table, state, 270.0)
+    assert answer["theta"] == (None if math.isnan(expected) else expected)
+
+
+@pytest.mark.parametrize(
+    ("path", "change", "field"),
+    [
+        ("/v1/simulate", {"balls": {"0": [0.5, 0.5], "1": [0.51, 0.5]}}, "positions[1]"),
+        ("/v1/simulate", {"balls": {"0": [5.0, 0.5]}}, "positions[0]"),
+        ("/v1/simulate", {"balls": {"16": [0.5, 0.5]}}, "balls"),
+        ("/v1/simulate", {"balls": {"zero": [0.5, 0.5]}}, "balls"),
+        ("/v1/simulate", {"balls": {"0": [0.5]}}, "balls"),
+        ("/v1/simulate", {"balls": []}, "balls"),
+        ("/v1/simulate", {"shot": SHOT | {"v": 11}}, "shot.v"),
+        ("/v1/simulate", {"shot": None}, "shot"),
+        ("/v1/simulate", {"table": {"name": "olympiad", "mu_slide": 7}}, "table"),
+        ("/v1/simulate", {"table": {"name": "olympiad", "nap": 7}}, "table"),
+        ("/v1/simulate/batch", {"shots": []}, "shots"),
+        ("/v1/simulate/batch", {"shots": [SHOT], "tables": [BALLS]}, "balls"),
+        ("/v1/simulate/batch", {"shots": [SHOT], "balls": None, "tables": [BALLS, BALLS]}, "tables"),
+        ("/v1/simulate/batch", {"shots": [SHOT, SHOT | {"theta": 71}]}, "shots.1.theta"),
+        ("/v1/min-elevation", {"phi": "north"}, "phi"),
+        ("/v1/min-elevation", {"balls": {}}, None),
+        ("/v1/min-elevation", {"balls": {"1": [0.5, 0.5]}}, None),
+    ],
+)
+def test_bad_scenes(new_player, path, change, field):
+    body = {"balls": BALLS} | ({"phi": 0.0} if path == "/v1/min-elevation" else {"shot": SHOT})
+    body = {"balls": BALLS} if "shots" in change else body
+    response = new_player().request("POST", path, json=body | change)
+    if field is None:
+        assert response.status_code in (200, 422), response.text
+        return
+    assert response.status_code == 422, response.text
+    problem = response.json()
+    assert problem["code"] == "invalid"
+    assert problem["field"].startswith(field)
+
+
+def test_the_physics_needs_a_token(server):
+    for path in ("/v1/simulate", "/v1/simulate/batch", "/v1/min-elevation"):
+        assert server.request("POST", path, json={}).status_code == 401
