@@ -1,6 +1,6 @@
 """`pooliad simulate`: what one shot does."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -29,14 +29,18 @@ def simulate(
     as_json: Json = False,
 ) -> None:
     """Simulate one shot and print its events."""
+    import math
+
     from physics import InvalidShot, InvalidState, InvalidTable, Shot, check, min_elevation
     from physics import simulate as run
 
     try:
         cloth = _table(table)
         state = _state(cloth, balls, rack)
-        elevation = min_elevation(cloth, state, phi, a, b) if theta is None else theta
-        shot = Shot(v, phi, elevation, a, b)
+        least = min_elevation(cloth, state, phi, a, b)
+        if theta is None and math.isnan(least):
+            fail(f"the cue is blocked at every elevation up to {cloth.theta_max:g} deg", USAGE)
+        shot = Shot(v, phi, least if theta is None else theta, a, b)
         unplayable = check(cloth, state, shot)
     except (InvalidShot, InvalidState, InvalidTable) as error:
         fail(str(error), USAGE)
@@ -51,11 +55,9 @@ def simulate(
 
 def _table(text: str) -> "Table":
     """The table named, or described in JSON."""
-    import json
-
     from physics import Table
 
-    return Table.from_dict(json.loads(text) if text.lstrip().startswith("{") else {"name": text})
+    return Table.from_dict(_json("--table", text) if text.lstrip().startswith("{") else {"name": text})
 
 
 def _state(table: "Table", balls: str | None, rack: int | None) -> "TableState":
@@ -69,20 +71,29 @@ def _state(table: "Table", balls: str | None, rack: int | None) -> "TableState":
 
 def _read_balls(text: str) -> "TableState":
     """A position from its notation or from JSON, given or in a file."""
-    import json
     from pathlib import Path
 
     from client import notation
     from physics import TableState
 
     if text.startswith("@"):
-        text = Path(text[1:]).read_text(encoding="utf-8")
+        try:
+            text = Path(text[1:]).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            fail(f"{text[1:]} cannot be read: {error}", USAGE)
+    if text.lstrip().startswith("{"):
+        return TableState.from_dict(_json("--balls", text))
+    return notation.read(text)
+
+
+def _json(option: str, text: str) -> Any:
+    """The JSON value of an option."""
+    import json
+
     try:
-        return (
-            TableState.from_dict(json.loads(text)) if text.lstrip().startswith("{") else notation.read(text)
-        )
+        return json.loads(text)
     except json.JSONDecodeError as error:
-        fail(f"--balls is not JSON: {error}", USAGE)
+        fail(f"{option} is not JSON: {error}", USAGE)
 
 
 def _value(shot: "Shot", result: "Result") -> dict[str, object]:

@@ -1,0 +1,198 @@
+"""The `pooliad` command: what it prints, how it leaves (0 worked, 1 failed, 2 wrong usage), and that help
+is quick.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import urllib.request
+
+import pytest
+from typer.testing import CliRunner
+
+import physics
+from client import notation
+from client.cli import application, serve
+
+POSITION = "0:0.5,1.7 3:0.4,0.6"
+TABLE = physics.Table.olympiad()
+STATE = notation.read(POSITION)
+
+
+def run(*arguments):
+    """A command in this process."""
+    return CliRunner().invoke(application(), [str(argument) for argument in arguments])
+
+
+def test_help_loads_nothing_heavy():
+    """`pooliad --help` has to answer at once: no compiler, no models, no HTTP."""
+    program = (
+        "import sys; from client.cli import application; application();"
+        "print([name for name in ('numba', 'scipy', 'pydantic', 'httpx2', 'numpy') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize("name", ["demo", "serve", "simulate", "doctor", "agent", "replay"])
+def test_every_command_has_help(name):
+    done = run(name, "--help")
+    assert done.exit_code == 0
+    assert name in run("--help").output
+
+
+def test_simulate_prints_what_the_library_computes():
+    done = run("simulate", "--v", 2, "--phi", 260, "--theta", 8, "--b", 3, "--balls", POSITION, "--json")
+    told = json.loads(done.stdout)
+    result = physics.simulate(TABLE, STATE, physics.Shot(2.0, 260.0, 8.0, 0.0, 3.0))
+    assert told["events"] == json.loads(json.dumps([event.to_dict() for event in result.events]))
+    assert told["final"] == result.final.to_dict()
+    assert told["status"] == "at_rest"
+
+
+def test_simulate_takes_json_a_file_and_a_rack(tmp_path):
+    file = tmp_path / "position.json"
+    file.write_text(json.dumps(STATE.to_dict()))
+    shot = ["simulate", "--v", 2, "--phi", 260, "--json"]
+    answers = [
+        run(*shot, "--balls", given).stdout for given in (POSITION, json.dumps(STATE.to_dict()), f"@{file}")
+    ]
+    assert answers[0] == answers[1] == answers[2]
+    assert json.loads(answers[0])["shot"]["theta"] == physics.min_elevation(TABLE, STATE, 260.0)
+    broken = run("simulate", "--v", 9, "--phi", 270, "--rack", 7)
+    assert broken.exit_code == 0
+    assert "ball collision" in broken.stdout
+
+
+def test_simulate_on_another_table():
+    shot = ["simulate", "--v", 2, "--phi", 260, "--theta", 8, "--balls", POSITION, "--json", "--table"]
+    usual = json.loads(run(*shot, "olympiad").stdout)
+    slow = json.loads(run(*shot, '{"name": "olympiad", "mu_roll": 0.03}').stdout)
+    assert slow["duration"] < usual["duration"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (["--v", "20", "--phi", "0", "--balls", POSITION], "v = 20"),
+        (["--v", "nan", "--phi", "0", "--balls", POSITION], "v = nan"),
+        (["--v", "2", "--phi", "0"], "exactly one of --balls and --rack"),
+        (["--v", "2", "--phi", "0", "--balls", POSITION, "--rack", "1"], "exactly one"),
+        (["--v", "2", "--phi", "0", "--balls", "0:0.5"], "3:0.4,0.6"),
+        (["--v", "2", "--phi", "0", "--balls", "0:0.5,0.5 0:0.6,0.6"], "once"),
+        (["--v", "2", "--phi", "0", "--balls", "0:0.5,0.5 1:0.5,0.51"], "overlaps"),
+        (["--v", "2", "--phi", "0", "--balls", "{"], "not JSON"),
+        (["--v", "2", "--phi", "0", "--balls", "@/nowhere/at/all"], "/nowhere/at/all"),
+        (["--v", "2", "--phi", "0", "--balls", POSITION, "--table", "snooker"], "snooker"),
+        (["--v", "2", "--phi", "0", "--balls", "3:0.4,0.6"], "cannot be played"),
+        (["--v", "2", "--phi", "90", "--theta", "0", "--balls", "0:0.5,0.03"], "cannot be played"),
+        (["--v", "2", "--phi", "0", "--a", "40", "--balls", POSITION], "a^2 + b^2"),
+        (["--v", "2", "--phi", "0", "--balls", "0:0.5,1 3:0.442849,1"], "every elevation"),
+        (["--v", "2", "--phi", "0", "--balls", POSITION, "--table", "{"], "not JSON"),
+    ],
+)
+def test_simulate_names_what_is_wrong(arguments, named):
+    done = run("simulate", *arguments)
+    assert done.exit_code == 2
+    assert named in done.stderr
+
+
+def test_doctor_reports_and_agrees_with_itself():
+    done = run("doctor", "--json")
+    report = json.loads(done.stdout)
+    assert done.exit_code == 0, done.stderr
+    assert report["ok"] is True
+    assert report["self_test"]["digest"] == json.loads(run("doctor", "--json").stdout)["self_test"]["digest"]
+    assert set(report["packages"]) == {"physics", "referee", "server", "client"}
+    assert report["versions"]["pooliad"]
+    assert report["kernel_cache"]["state"] == "filled"
+    assert report["self_test"]["digest"] in run("doctor").stdout
+
+
+def test_doctor_fails_where_something_does_not_work():
+    done = run("doctor", "--database", "sqlite:////proc/none/pooliad.db", "--json")
+    assert done.exit_code == 1
+    assert "cannot be written" in done.stderr
+    assert json.loads(done.stdout)["ok"] is False
+
+
+def test_serve_names_the_install_command_when_the_extra_is_missing(monkeypatch):
+    monkeypatch.setattr(serve, "find_spec", lambda name: None)
+    done = run("serve")
+    assert done.exit_code == 1
+    assert "pip install 'pooliad[server]'" in done.stderr
+
+
+def test_serve_serves_until_it_is_told_to_stop(server_installed, tmp_path):
+    command = [
+        sys.executable,
+        "-m",
+        "client.cli",
+        "serve",
+        "--port",
+        "0",
+        "--database",
+        f"sqlite:///{tmp_path}/a.db",
+    ]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        try:
+            url = json.loads(server.stdout.readline())["url"]
+            with urllib.request.urlopen(f"{url}/healthz", timeout=10) as answer:
+                assert answer.status == 200
+        finally:
+            server.send_signal(signal.SIGTERM)
+        assert server.wait(20) == 0
+
+
+def test_agent_run_plays_a_match(hall):
+    """The program the demo starts, with address and token from the environment."""
+    entries = hall.register("one"), hall.register("two")
+    match = hall.match(*entries, seed=3)
+    command = [sys.executable, "-m", "client.cli", "agent", "run", "random", "--seed", "3", "--json"]
+    agents = [
+        subprocess.Popen(
+            command,
+            stdout=subprocess.PIPE,
+            text=True,
+            env=os.environ | {"POOLIAD_URL": hall.url, "POOLIAD_TOKEN": entry.token},
+        )
+        for entry in entries
+    ]
+    told = [json.loads(agent.communicate(timeout=120)[0]) for agent in agents]
+    assert [agent.returncode for agent in agents] == [0, 0]
+    assert [each["seat"] for each in told] == [0, 1]
+    assert told[0]["score"] == list(hall.organiser.match(match.id).score)
+
+
+def test_agent_run_names_what_is_wrong(hall):
+    unknown = run("agent", "run", "nobody", "--url", hall.url, "--token", "x")
+    assert unknown.exit_code == 2
+    assert "greedy" in unknown.stderr
+    command = [
+        sys.executable,
+        "-m",
+        "client.cli",
+        "agent",
+        "run",
+        "random",
+        "--url",
+        hall.url,
+        "--token",
+        "x",
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "unauthorized" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("command", ["show", "verify"])
+def test_a_file_that_is_no_record_is_named(command, tmp_path):
+    nothing = run("replay", command, tmp_path / "nothing.jsonl")
+    assert nothing.exit_code == 2
+    assert "nothing.jsonl" in nothing.stderr
+    (tmp_path / "text.jsonl").write_text("hello\n")
+    text = run("replay", command, tmp_path / "text.jsonl")
+    assert text.exit_code == 1
