@@ -237,7 +237,7 @@ def _fault(found: Mapping[str, Any]) -> Fault:
 
 def render(error: ServerError, instance: str) -> Response:
     """The one place where an error becomes a response."""
-    body = error.problem(instance).model_dump_json(exclude_none=True, exclude_defaults=True)
+    body = error.problem(instance).model_dump_json(exclude_unset=True)
     return Response(body, error.status, headers=dict(error.headers), media_type=PROBLEM_JSON)
 
 

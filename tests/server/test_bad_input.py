@@ -6,6 +6,8 @@ import uuid
 
 import pytest
 
+from referee.wire import View
+
 
 @pytest.fixture
 def at_break(new_table):
@@ -195,6 +197,7 @@ def test_a_stale_version_carries_the_current_view(at_break, break_shot):
     problem = problem_of(mover.act(view | {"version": 7}, break_shot), 412, "stale_version")
     assert (problem["view"]["game"], problem["view"]["version"]) == (view["game"], view["version"])
     assert problem["view"]["seat"] == view["seat"]
+    assert View.model_validate(problem["view"]).groups is None
 
 
 def test_the_token_of_another_agent(at_break, new_player, break_shot):
