@@ -6,16 +6,13 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from client.agent import Agent, AgentFactory
-from client.agents.registry import load, titles
+from client.agents.registry import Player, factory_of, titles
 from client.players import log
 from physics import Table
 from referee import Action, EightBall, Phase
 from referee.play import MatchSeed, NoiseModel, Stroke
 from referee.play.local import BadAction, PlayedGame, Watch, play_match, points_of
 from referee.wire import GameOver, GameTerms, OutcomeView, View
-
-Player = AgentFactory | str
-"""An `Agent` class, a function that makes agents, or a name: `random`, `greedy`, `module:Class`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +64,7 @@ def play(
         client.errors.AgentNotFound: a name leads nowhere.
     """
     seed = secrets.randbelow(2**32) if seed is None else seed
-    hall = _Hall((_factory(agent_a, seed), _factory(agent_b, seed)))
+    hall = _Hall((factory_of(agent_a, seed), factory_of(agent_b, seed)))
     players = titles(_name(agent_a), _name(agent_b))
     watch = Watch(on_stroke=on_stroke or _ignore, on_refusal=_log_bad_action)
     rules, model = EightBall(table or Table.olympiad()), NoiseModel(noise)
@@ -123,11 +120,6 @@ class _Hall:
         for chair in self._chairs:
             chair.finish(game, self.score)
         return game
-
-
-def _factory(player: Player, seed: int) -> AgentFactory:
-    """What makes the player's instances."""
-    return load(player, seed) if isinstance(player, str) else player
 
 
 def _name(player: Player) -> str:

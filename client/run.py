@@ -6,7 +6,7 @@ import time
 import httpx2
 from pydantic import ValidationError
 
-from client.agent import AgentFactory
+from client.agents.registry import Player, factory_of
 from client.errors import Conflict, StaleVersion, Unprocessable
 from client.http import Pooliad
 from client.players import Players
@@ -22,7 +22,7 @@ FIRST_PAUSE, LONGEST_PAUSE = 0.05, 1.0
 
 
 def run_agent(
-    agent: AgentFactory,
+    agent: Player,
     url: str,
     token: str,
     *,
@@ -32,16 +32,16 @@ def run_agent(
     """Play every turn the server offers until a match is over, and return how it ended.
 
     Args:
-        agent: an `Agent` class, or a function that makes an instance; called once for each game.
+        agent: an `Agent` class, a function that makes an instance (called once for each game), or a name.
         url: the server's address. token: the agent's.
         retry, transport: as for `client.Pooliad`.
 
     Raises:
-        client.PooliadError: the token is not accepted, or the server stays away for longer than `retry`
-        waits.
+        client.PooliadError: there is no agent of this name, the token is not accepted, or the server stays
+            away for longer than `retry` waits.
     """
     with Pooliad(url, token, retry=retry, transport=transport) as server:
-        return _Run(server, Players(agent)).until_over()
+        return _Run(server, Players(factory_of(agent))).until_over()
 
 
 class _Run:

@@ -14,6 +14,15 @@ SHIPPED = {
 """Name to import path. The classes are imported when asked for: `greedy` needs the compiled physics."""
 
 
+Player = AgentFactory | str
+"""An `Agent` class, a function that makes agents, or a name: `random`, `greedy`, `module:Class`."""
+
+
+def factory_of(player: Player, seed: int | None = None) -> AgentFactory:
+    """What makes the player's instances; raises `AgentNotFound` for a name that leads nowhere."""
+    return load(player, seed) if isinstance(player, str) else player
+
+
 def load(name: str, seed: int | None = None) -> AgentFactory:
     """A function that makes instances of the agent called `name`.
 

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import physics
 from client import geometry
+from referee import Action, CueBallArea, EightBall, Game, Phase
 
 TABLE = physics.Table.olympiad()
 RADIUS = TABLE.ball_radius
@@ -117,3 +118,49 @@ def test_bad_input_is_named():
         geometry.pot(TABLE, state, 3, 6)
     with pytest.raises(ValueError, match="cue ball"):
         geometry.pot(TABLE, state, 0, 1)
+
+
+@pytest.mark.parametrize(
+    ("place", "free", "in_kitchen"),
+    [
+        ((0.5, 1.9), True, True),
+        ((0.5, TABLE.head_string), True, False),
+        ((0.5, 0.5), True, False),
+        ((0.3, 1.9), False, False),
+        ((0.3 + 2 * RADIUS, 1.9), False, False),
+        ((RADIUS, 0.8), True, False),
+        ((RADIUS, 0.5 * TABLE.length), False, False),
+        ((0.01, 1.9), False, False),
+        ((math.nan, 1.9), False, False),
+    ],
+    ids=[
+        "clear",
+        "on-the-string",
+        "outside-the-kitchen",
+        "on-a-ball",
+        "touching",
+        "frozen",
+        "mouth",
+        "rail",
+        "nan",
+    ],
+)
+def test_free_places_are_those_the_referee_accepts(place, free, in_kitchen):
+    """R6, R37, R40: on the string is not behind it, touching counts as overlap, mouth lines are no place."""
+    state = physics.TableState.from_positions({3: (0.3, 1.9), 8: (0.9, 0.3)})
+    assert geometry.is_free(TABLE, state, place) is free
+    assert geometry.is_free(TABLE, state, place, kitchen=True) is in_kitchen
+    for area, ours in ((CueBallArea.ANYWHERE, free), (CueBallArea.KITCHEN, in_kitchen)):
+        game = Game(state, Phase.PLAY, 0, 0, cue_ball_in_hand=area)
+        action = Action(shot=physics.Shot(2.0, 200.0, 60.0), call="safety", cue_ball=place)
+        refused = {refusal.field for refusal in EightBall(TABLE).check(game, action)}
+        assert ("cue_ball" not in refused) is ours
+
+
+def test_a_lattice_has_free_places_only():
+    state = physics.rack(TABLE, "eight_ball", seed=3)
+    everywhere = geometry.lattice(TABLE, state, 9, 17)
+    kitchen = geometry.lattice(TABLE, state, 9, 5, kitchen=True)
+    assert len(everywhere) > 100
+    assert all(geometry.is_free(TABLE, state, place) for place in everywhere)
+    assert all(place[1] > TABLE.head_string for place in kitchen)
