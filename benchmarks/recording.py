@@ -20,6 +20,9 @@ ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "benchmarks" / "results"
 LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "mpmath")
 
+WIDEST = 60
+"""Letters in a printed cell; the data line holds all."""
+
 Row = dict[str, Any]
 Tables = dict[str, list[Row]]
 """What a benchmark measures: named tables, each a list of rows with the same keys."""
@@ -88,9 +91,15 @@ def as_text(rows: list[Row]) -> str:
     """Rows in aligned columns."""
     if not rows:
         return "  (none)"
-    cells = [list(rows[0]), *([show(value) for value in row.values()] for row in rows)]
+    cells = [list(rows[0]), *([shortened(value) for value in row.values()] for row in rows)]
     widths = [max(len(row[n]) for row in cells) for n in range(len(cells[0]))]
     return "\n".join("  " + "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in cells)
+
+
+def shortened(value: Any) -> str:
+    """A value no wider than a column should be."""
+    text = show(value)
+    return text if len(text) <= WIDEST else text[: WIDEST - 3] + "..."
 
 
 def show(value: Any) -> str:

@@ -29,6 +29,9 @@ PATIENCE = 300.0
 INSTANTS = 120
 """Instants looked at in the flight of a traced shot."""
 
+MOST_FAILURES = 24
+"""Failures kept in the data line; the table counts all."""
+
 SHOWN = 3
 """Failures of a kind written out for each chunk."""
 
@@ -87,37 +90,42 @@ def measure(full: bool) -> Tables:
     tallies = run(shots, flights, processes=len(os.sched_getaffinity(0)))
     rows = [tally.row(kind) for kind, tally in tallies.items()]
     failures = [failure for tally in tallies.values() for failure in tally.failures]
-    return {"by_class": rows, "failures": failures}
+    return {"by_class": rows, "failures": failures[:MOST_FAILURES]}
 
 
 def run(shots: int, flights: int, processes: int) -> dict[str, Tally]:
     """``shots`` of each class, ``flights`` of them followed instant by instant, in worker processes."""
     tallies = {kind: Tally() for kind in hostile.CLASSES}
-    jobs = [job for kind in hostile.CLASSES for job in chunks(kind, shots, flights)]
-    context = multiprocessing.get_context("spawn")
     physics.simulate_batch(*nothing())  # compiles before there are several processes to do it
-    pool = concurrent.futures.ProcessPoolExecutor(processes, mp_context=context)
-    futures = {pool.submit(attempt, *job): job for job in jobs}
-    started, done = time.monotonic(), 0
-    while futures:
+    pool = concurrent.futures.ProcessPoolExecutor(processes, mp_context=multiprocessing.get_context("spawn"))
+    jobs = [job for kind in hostile.CLASSES for job in chunks(kind, shots, flights)]
+    waiting = {pool.submit(attempt, *job): job for job in jobs}
+    while waiting:
         finished, _ = concurrent.futures.wait(
-            futures, PATIENCE, return_when=concurrent.futures.FIRST_COMPLETED
+            waiting, PATIENCE, return_when=concurrent.futures.FIRST_COMPLETED
         )
         if not finished:
-            for kind, seed, n, _ in list(futures.values())[:processes]:
-                tallies[kind].faults["endless"] += 1
-                tallies[kind].failures.append({"class": kind, "seed": seed, "row": -1, "fault": f"endless, of {n}"})
-            for process in list(pool._processes.values()):  # type: ignore[union-attr]
-                process.kill()
+            give_up(pool, tallies, list(waiting.values())[:processes])
             break
         for future in finished:
-            kind = futures.pop(future)[0]
-            tallies[kind].add(future.result())
-            done += 1
-        print(f"\r{done} of {len(jobs)} chunks, {time.monotonic() - started:.0f} s", end="", flush=True)
-    print()
+            tallies[waiting.pop(future)[0]].add(future.result())
+        if len(waiting) % 10 == 0:
+            print(f"{len(jobs) - len(waiting)} of {len(jobs)} chunks", flush=True)
     pool.shutdown(wait=False, cancel_futures=True)
     return tallies
+
+
+def give_up(
+    pool: concurrent.futures.ProcessPoolExecutor, tallies: dict[str, Tally], stuck: list[tuple[str, int, int, int]]
+) -> None:
+    """Report the chunks that do not end and stop their processes."""
+    for kind, seed, n, _ in stuck:
+        tallies[kind].faults["endless"] += 1
+        tallies[kind].failures.append(
+            {"class": kind, "seed": seed, "row": -1, "fault": "endless", "scene": f"one of {n} of this seed"}
+        )
+    for process in list(pool._processes.values()):  # type: ignore[union-attr]
+        process.kill()
 
 
 def nothing() -> tuple[physics.Table, physics.TableState, list[list[float]]]:

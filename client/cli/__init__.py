@@ -4,7 +4,7 @@ import sys
 
 import typer
 
-from client.cli import agent, demo, doctor, replay, serve, simulate
+from client.cli import agent, bench, demo, doctor, replay, serve, simulate
 from client.cli.output import FAILED
 
 
@@ -21,6 +21,7 @@ def application() -> typer.Typer:
     app.command("serve")(serve.serve)
     app.command("simulate")(simulate.simulate)
     app.command("doctor")(doctor.doctor)
+    app.command("bench")(bench.bench)
     app.add_typer(agent.commands(), name="agent")
     app.add_typer(replay.commands(), name="replay")
     return app
