@@ -55,4 +55,4 @@ def _directory(out: Path | None) -> Path:
     out.mkdir(parents=True, exist_ok=True)
     if (out / "pooliad.db").exists():
         fail(f"{out} holds an earlier demo (pooliad.db); choose another --out", USAGE)
-    return out
+    return out.resolve()

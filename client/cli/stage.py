@@ -34,9 +34,7 @@ class Stage:
         quiet: say nothing while playing.
     """
 
-    def __init__(
-        self, started: list[Child], directory: Path, agents: tuple[str, str], seed: int, quiet: bool
-    ) -> None:
+    def __init__(self, started: list[Child], directory: Path, agents: tuple[str, str], seed: int, quiet: bool) -> None:
         self._children = started
         self._directory = directory
         self._agents = agents
@@ -49,7 +47,8 @@ class Stage:
         _warm_up(self._say)
         server = embedded.start(self._children, self._directory)
         with Pooliad(server.url, server.organiser) as organiser:
-            players = [self._enter(organiser, server.url, name) for name in titles(*self._agents)]
+            entered = zip(titles(*self._agents), self._agents, strict=True)
+            players = [self._enter(organiser, server.url, name, program) for name, program in entered]
             request = MatchRequest(
                 agents=(players[0].id, players[1].id),
                 games=games,
@@ -61,10 +60,9 @@ class Stage:
             self._watch(organiser, match)
             return self._finish(organiser.match(match.id))
 
-    def _enter(self, organiser: Pooliad, url: str, name: str) -> AgentView:
+    def _enter(self, organiser: Pooliad, url: str, name: str, program: str) -> AgentView:
         """Register an agent and start its process."""
         entry = organiser.register(name)
-        program = self._agents[len(self._children) - 1]
         command = [sys.executable, "-m", "client.cli", "agent", "run", program]
         command += ["--seed", str(self._seed)] if program in SHIPPED else []
         environment = {"POOLIAD_URL": url, "POOLIAD_TOKEN": entry.token}

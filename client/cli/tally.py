@@ -1,5 +1,6 @@
 """What a match came to: numbers gathered stroke by stroke, for people and as JSON."""
 
+import shlex
 from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -56,5 +57,5 @@ class GameTally:
             "made": self.made,
             "simulated_seconds": round(self.simulated, 3),
             "record": str(record),
-            "verify": f"pooliad replay verify {record}",
+            "verify": f"pooliad replay verify {shlex.quote(str(record))}",
         }

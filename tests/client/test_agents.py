@@ -73,9 +73,7 @@ def test_greedy_plays_the_plain_pot():
 
 
 def test_greedy_finishes_on_the_eight():
-    game, mine = turn(
-        {0: (0.5, 0.9), 8: (0.3, 0.5), 12: (0.9, 1.8)}, groups=(Group.SOLIDS, Group.STRIPES), noise=0.0
-    )
+    game, mine = turn({0: (0.5, 0.9), 8: (0.3, 0.5), 12: (0.9, 1.8)}, groups=(Group.SOLIDS, Group.STRIPES), noise=0.0)
     action, value = mine.best_stroke()
     assert action.call.ball == 8
     assert value == 1.0

@@ -56,9 +56,7 @@ def test_simulate_takes_json_a_file_and_a_rack(tmp_path):
     file = tmp_path / "position.json"
     file.write_text(json.dumps(STATE.to_dict()))
     shot = ["simulate", "--v", 2, "--phi", 260, "--json"]
-    answers = [
-        run(*shot, "--balls", given).stdout for given in (POSITION, json.dumps(STATE.to_dict()), f"@{file}")
-    ]
+    answers = [run(*shot, "--balls", given).stdout for given in (POSITION, json.dumps(STATE.to_dict()), f"@{file}")]
     assert answers[0] == answers[1] == answers[2]
     assert json.loads(answers[0])["shot"]["theta"] == physics.min_elevation(TABLE, STATE, 260.0)
     broken = run("simulate", "--v", 9, "--phi", 270, "--rack", 7)

@@ -70,16 +70,13 @@ def act(hall, token, view):
     theta = min(70.0, 45.0 if least is None else least + 1.0)
     speed = 3.0 if view["allowed"]["call_required"] else 9.0
     shot = {"v": speed, "phi": phi, "theta": theta, "a": 0.0, "b": 0.0}
-    return curl(
-        hall, token, "POST", f"{path}/shots", {"shot": shot, "call": call, "cue_ball": cue_ball}, **headers
-    )
+    return curl(hall, token, "POST", f"{path}/shots", {"shot": shot, "call": call, "cue_ball": cue_ball}, **headers)
 
 
 def test_a_game_played_with_curl_alone_reaches_its_end(hall):
     require(shutil.which("curl") is not None, "the curl program")
     tokens = [
-        curl(hall, hall.organiser_token, "POST", "/v1/agents", {"name": f"curl-{id(hall)}-{seat}"})
-        for seat in (0, 1)
+        curl(hall, hall.organiser_token, "POST", "/v1/agents", {"name": f"curl-{id(hall)}-{seat}"}) for seat in (0, 1)
     ]
     terms = {"agents": [entry["agent"]["id"] for entry in tokens], "seed": "07" * 32, "noise": {"level": 1.0}}
     match = curl(hall, hall.organiser_token, "POST", "/v1/matches", terms, Idempotency_Key="curl-match")

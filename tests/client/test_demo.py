@@ -5,6 +5,7 @@ behind.
 import json
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -61,7 +62,7 @@ def test_the_command_it_names_verifies_the_record(finished):
     """In a fresh process that has nothing but the file."""
     account, _ = finished
     for game in account["games"]:
-        program, *arguments = game["verify"].split(" ")
+        program, *arguments = shlex.split(game["verify"])
         assert program == "pooliad"
         done = run(*arguments, cwd="/")
         assert done.returncode == 0, done.stdout + done.stderr
@@ -72,9 +73,7 @@ def test_a_changed_record_does_not_verify(finished, tmp_path):
     account, _ = finished
     forged = tmp_path / "forged.jsonl"
     text = Path(account["games"][0]["record"]).read_text()
-    forged.write_text(
-        re.sub(r'"duration":(\d)', lambda found: f'"duration":{(int(found[1]) + 1) % 10}', text, count=1)
-    )
+    forged.write_text(re.sub(r'"duration":(\d)', lambda found: f'"duration":{(int(found[1]) + 1) % 10}', text, count=1))
     done = run("replay", "verify", forged, "--json")
     assert done.returncode == 1
     verdict = json.loads(done.stdout)
@@ -154,9 +153,7 @@ def test_an_agent_that_breaks_down_ends_the_demo_with_its_words(tmp_path):
         "        print('my last words', flush=True)\n        os._exit(3)\n"
     )
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), str(Path.cwd())])}
-    done = run(
-        "demo", "--agents", "broken:Broken", "random", "--seed", 1, "--out", tmp_path / "out", env=environment
-    )
+    done = run("demo", "--agents", "broken:Broken", "random", "--seed", 1, "--out", tmp_path / "out", env=environment)
     assert done.returncode == 1
     assert "Broken left with exit code 3" in done.stderr
     assert "my last words" in done.stderr

@@ -21,9 +21,7 @@ def test_the_ghost_ball_touches_the_ball_on_the_far_side_of_its_target(ball, tar
     assume(geometry.distance(ball, target) > 1e-3)
     ghost = geometry.ghost_ball(ball, target, RADIUS)
     assert geometry.distance(ghost, ball) == pytest.approx(2 * RADIUS, abs=1e-12)
-    assert geometry.distance(ghost, target) == pytest.approx(
-        geometry.distance(ball, target) + 2 * RADIUS, abs=1e-12
-    )
+    assert geometry.distance(ghost, target) == pytest.approx(geometry.distance(ball, target) + 2 * RADIUS, abs=1e-12)
 
 
 @given(points, points)
