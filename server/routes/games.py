@@ -32,9 +32,7 @@ def game(game_id: str, context: Server, reader: Reader) -> Response:
 
 @router.post(
     "/shots",
-    **describe(
-        *ACTION_PROBLEMS, Refused, body=ShotRequest, success={200: StrokeAnswer}, key=True, version=True
-    ),
+    **describe(*ACTION_PROBLEMS, Refused, body=ShotRequest, success={200: StrokeAnswer}, key=True, version=True),
     dependencies=[InHand],
     summary="Play a stroke",
 )
@@ -45,9 +43,7 @@ def shoot(game_id: str, context: Server, command: Sent) -> Response:
 
 @router.post(
     "/decisions",
-    **describe(
-        *ACTION_PROBLEMS, Refused, body=DecisionRequest, success={200: StrokeAnswer}, key=True, version=True
-    ),
+    **describe(*ACTION_PROBLEMS, Refused, body=DecisionRequest, success={200: StrokeAnswer}, key=True, version=True),
     dependencies=[InHand],
     summary="Choose after a break",
 )

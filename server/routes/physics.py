@@ -30,9 +30,7 @@ def simulate_batch(_caller: Authenticated, body: Body, content_type: ContentType
     return physics.simulate_batch(parse_body(body, content_type, BatchRequest))
 
 
-@router.post(
-    "/min-elevation", **describe(body=MinElevationRequest), summary="The least elevation of a free cue"
-)
+@router.post("/min-elevation", **describe(body=MinElevationRequest), summary="The least elevation of a free cue")
 def min_elevation(_caller: Authenticated, body: Body, content_type: ContentType = None) -> MinElevationAnswer:
     """null when there is none up to the table's greatest."""
     return physics.min_elevation(parse_body(body, content_type, MinElevationRequest))

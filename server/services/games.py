@@ -92,9 +92,7 @@ def _header(connection: Connection, match: Row[Any], number: int, seeds: GameSee
     )
 
 
-def _finish(
-    writing: Writing, live: LiveGame, game: Game, elapsed: int, after_last_move: Sequence[int]
-) -> LiveGame:
+def _finish(writing: Writing, live: LiveGame, game: Game, elapsed: int, after_last_move: Sequence[int]) -> LiveGame:
     """The game is over: its result, the end of its record, the news to both players, and what comes next."""
     outcome = game.outcome
     assert outcome is not None
@@ -126,9 +124,7 @@ def _go_on(writing: Writing, live: LiveGame) -> None:
     notices.match_over(writing.connection, live.match, FINISHED)
 
 
-def _turn(
-    writing: Writing, match: Row[Any], game: Game, remaining: int, delivered: bool = False
-) -> dict[str, Any]:
+def _turn(writing: Writing, match: Row[Any], game: Game, remaining: int, delivered: bool = False) -> dict[str, Any]:
     """The columns of a new turn: its clock starts when it is delivered, or by itself after a while."""
     clock_from = writing.now if delivered else writing.now + writing.context.fetch_grace
     return {

@@ -26,12 +26,16 @@ class LiveGame:
     """One game with its match.
 
     Attributes:
-        row: of `games`. match: of `matches`. players: the agents' names, by seat. score: of the match, by
-            seat.
+        row: of `games`.
+        match: of `matches`.
+        game: the referee's state.
+        players: the agents' names, by seat.
+        score: of the match, by seat.
     """
 
     row: Row[Any]
     match: Row[Any]
+    game: Game
     players: tuple[str, str]
     score: tuple[float, float]
 
@@ -44,11 +48,6 @@ class LiveGame:
     def agents(self) -> tuple[str, str]:
         """The agents' ids, by seat."""
         return self.match.seat_0, self.match.seat_1
-
-    @property
-    def game(self) -> Game:
-        """The referee's state."""
-        return Game.from_dict(self.row.state)
 
     @property
     def is_running(self) -> bool:
@@ -128,7 +127,13 @@ def find(connection: Connection, game_id: str) -> LiveGame:
     if row is None:
         raise NotFound(f"there is no game {game_id}")
     match = connection.execute(select(matches).where(matches.c.id == row.match_id)).one()
-    return LiveGame(row, match, player_names(connection, match), score_of(connection, match.id))
+    return LiveGame(
+        row=row,
+        match=match,
+        game=Game.from_dict(row.state),
+        players=player_names(connection, match),
+        score=score_of(connection, match.id),
+    )
 
 
 def player_names(connection: Connection, match: Row[Any]) -> tuple[str, str]:
@@ -155,9 +160,7 @@ def strokes_since(connection: Connection, game_id: str, seat: int | None) -> Seq
     if seat is not None:
         last = last.where(moves.c.seat == seat)
     first = connection.scalar(last) or 0
-    rows = connection.scalars(
-        select(moves.c.stroke).where(ours, moves.c.number >= first).order_by(moves.c.number)
-    )
+    rows = connection.scalars(select(moves.c.stroke).where(ours, moves.c.number >= first).order_by(moves.c.number))
     return tuple(StrokeView.model_validate(stroke) for stroke in rows)
 
 

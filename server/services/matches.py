@@ -141,9 +141,7 @@ def _require_may_abort(match: Row[Any], caller: Caller) -> None:
     if caller.id not in (match.seat_0, match.seat_1):
         raise Forbidden("only its players and the organiser may call a match off")
     if match.started_at is not None:
-        raise Forbidden(
-            "a match that has begun is called off by the organiser alone; a player can concede a game"
-        )
+        raise Forbidden("a match that has begun is called off by the organiser alone; a player can concede a game")
 
 
 def _find(connection: Connection, match_id: str) -> Row[Any]:

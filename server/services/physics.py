@@ -68,9 +68,7 @@ def min_elevation(request: MinElevationRequest) -> MinElevationAnswer:
 
 def _tables(request: BatchRequest) -> TableState | NDArray[np.float64]:
     if (request.balls is None) == (request.tables is None):
-        raise invalid_field(
-            "balls", request.balls, "exactly one of balls (for all shots) and tables (one for each)"
-        )
+        raise invalid_field("balls", request.balls, "exactly one of balls (for all shots) and tables (one for each)")
     if request.balls is not None:
         return TableState.from_positions(request.balls)
     tables = request.tables or ()

@@ -18,7 +18,8 @@ import httpx2
 import pytest
 
 ORGANISER_TOKEN = secrets.token_urlsafe(32)
-PATIENCE = 30.0
+PATIENCE = 150.0
+"""Seconds to wait for an answer: the first shot after a change of the kernels waits for their compiler."""
 
 _names = itertools.count()
 
@@ -88,9 +89,7 @@ class Player:
     def get(self, path: str, **params: Any) -> httpx2.Response:
         return self.request("GET", path, params=params)
 
-    def post(
-        self, path: str, body: Any = None, *, key: str | None = None, version: Any = None
-    ) -> httpx2.Response:
+    def post(self, path: str, body: Any = None, *, key: str | None = None, version: Any = None) -> httpx2.Response:
         """A well-formed command: a key of its own unless one is given, If-Match when a version is."""
         headers = {"Idempotency-Key": key or str(uuid.uuid4())}
         if version is not None:

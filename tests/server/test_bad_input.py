@@ -305,9 +305,7 @@ def test_a_wait_that_cannot_be(new_player, wait):
 @pytest.mark.parametrize("name", ["", " x", "x" * 65, "a\nb", "a\0b", "\N{BILLIARDS}", "<script>", 7, None])
 def test_names_that_cannot_be(server, name):
     body = json.dumps({"name": name})
-    response = server.request(
-        "POST", "/v1/agents", content=body, headers={"Content-Type": "application/json"}
-    )
+    response = server.request("POST", "/v1/agents", content=body, headers={"Content-Type": "application/json"})
     problem = problem_of(response, 422, "invalid")
     assert problem["field"] == "name"
 

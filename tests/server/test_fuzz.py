@@ -23,12 +23,8 @@ WORDS = (
     "cue_ball decision balls shots tables trace 0 3 8 mu_slide",
 )
 KEYS = st.sampled_from([word for line in WORDS for word in line.split()])
-NUMBERS = (
-    st.integers() | st.floats() | st.sampled_from([0, 0.5, 1.7, 3, 270.0, 1e308, -1e308, 1e-320, 2**53 + 1])
-)
-LEAVES = (
-    st.none() | st.booleans() | NUMBERS | st.text(max_size=8) | KEYS | st.sampled_from(["safety", "olympiad"])
-)
+NUMBERS = st.integers() | st.floats() | st.sampled_from([0, 0.5, 1.7, 3, 270.0, 1e308, -1e308, 1e-320, 2**53 + 1])
+LEAVES = st.none() | st.booleans() | NUMBERS | st.text(max_size=8) | KEYS | st.sampled_from(["safety", "olympiad"])
 VALUES = st.recursive(
     LEAVES,
     lambda inner: st.lists(inner, max_size=4) | st.dictionaries(KEYS, inner, max_size=6),
@@ -36,12 +32,8 @@ VALUES = st.recursive(
 )
 SHOTS = st.fixed_dictionaries(dict.fromkeys(("v", "phi", "theta", "a", "b"), NUMBERS))
 PLACES = st.dictionaries(st.sampled_from(["0", "1", "8", "15"]), st.tuples(NUMBERS, NUMBERS), max_size=3)
-SCENES = st.fixed_dictionaries(
-    {}, optional={"shot": SHOTS, "balls": PLACES, "shots": st.lists(SHOTS, max_size=3)}
-)
-BODIES = (VALUES | SCENES | st.builds(dict, SCENES, phi=NUMBERS)).map(
-    lambda value: json.dumps(value).encode()
-)
+SCENES = st.fixed_dictionaries({}, optional={"shot": SHOTS, "balls": PLACES, "shots": st.lists(SHOTS, max_size=3)})
+BODIES = (VALUES | SCENES | st.builds(dict, SCENES, phi=NUMBERS)).map(lambda value: json.dumps(value).encode())
 BODIES |= st.binary(max_size=40)
 QUICK = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 

@@ -114,8 +114,7 @@ def test_a_signal_sends_open_polls_home_and_stops_the_server_within_seconds(own_
     other = table.players[other_seat(view)]
     statuses = []
     polls = [
-        threading.Thread(target=lambda: statuses.append(other.get("/v1/turns", wait=25).status_code))
-        for _ in range(8)
+        threading.Thread(target=lambda: statuses.append(other.get("/v1/turns", wait=25).status_code)) for _ in range(8)
     ]
     for poll in polls:
         poll.start()

@@ -21,11 +21,7 @@ def document(server):
 
 
 def operations(document):
-    return [
-        (method, path, operation)
-        for path, item in document["paths"].items()
-        for method, operation in item.items()
-    ]
+    return [(method, path, operation) for path, item in document["paths"].items() for method, operation in item.items()]
 
 
 def examples_of(operation):
@@ -89,11 +85,7 @@ def test_every_body_has_an_example_that_its_own_schema_accepts(document):
 @pytest.fixture(params=["sent as shown", "sent where it applies"])
 def situation(request, new_table, new_player, organiser, break_shot):
     """Whom the examples meet: nobody in particular, or a game in which they can succeed."""
-    return (
-        Nowhere(organiser)
-        if request.param == "sent as shown"
-        else Somewhere(new_table, new_player, break_shot)
-    )
+    return Nowhere(organiser) if request.param == "sent as shown" else Somewhere(new_table, new_player, break_shot)
 
 
 class Nowhere:

@@ -70,9 +70,7 @@ def test_a_batch_gives_the_librarys_bits(new_player, state):
 def test_a_batch_with_a_table_for_each_shot(new_player):
     player = new_player()
     other = BALLS | {"0": [0.6, 1.5]}
-    answer = player.request(
-        "POST", "/v1/simulate/batch", json={"tables": [BALLS, other], "shots": [SHOT, SHOT]}
-    ).json()
+    answer = player.request("POST", "/v1/simulate/batch", json={"tables": [BALLS, other], "shots": [SHOT, SHOT]}).json()
     for balls, row in zip((BALLS, other), answer["results"], strict=True):
         assert row["balls"] == ask(player, "/v1/simulate", balls=balls, shot=SHOT)["balls"]
 
