@@ -12,7 +12,7 @@ from physics.errors import InvalidShot, InvalidState
 from physics.facts import FACTS_DTYPE
 from physics.parameters import parameters
 from physics.shot import FIELDS
-from physics.simulation import checked_positions
+from physics.simulation import NO_COUNTERS, NO_TRACE, checked_positions
 from physics.state import TableState
 from physics.table import Table
 
@@ -52,7 +52,11 @@ class Batch:
 
 
 def simulate_batch(
-    table: Table, states: TableState | NDArray[np.float64], shots: ArrayLike, threads: int = 1
+    table: Table,
+    states: TableState | NDArray[np.float64],
+    shots: ArrayLike,
+    threads: int = 1,
+    counters: NDArray[np.int64] | None = None,
 ) -> Batch:
     """Simulate n shots without traces. Each has the same bits as ``simulate`` gives it, whatever ``threads``.
 
@@ -60,6 +64,8 @@ def simulate_batch(
         states: one ``TableState`` for all shots, or positions (n, 16, 2) in metres with NaN for absent balls.
         shots: (n, 5) float64, columns v, phi, theta, a, b in Olympiad units.
         threads: how many threads share the rows; the interpreter is not held meanwhile.
+        counters: (n, 4) int64 to be filled with the work each shot took: predictions of a ball's next event, pairs the
+            filter left, contacts solved, looks at the boundary.
 
     A shot that cannot be played is a result: its status says why, positions unchanged, no events.
 
@@ -78,8 +84,8 @@ def simulate_batch(
     )
     arguments = (
         *(parameters(table), positions, strokes, batch.positions.reshape(n, -1), batch.pocket, batch.status),
-        batch.facts.view(np.int32).reshape(n, -1),
-        batch.facts.view(np.float64).reshape(n, -1),
+        *(batch.facts.view(np.int32).reshape(n, -1), batch.facts.view(np.float64).reshape(n, -1)),
+        *(NO_TRACE, 0, NO_COUNTERS if counters is None else counters),
     )
     run = kernels().simulate_rows
     if threads == 1 or n < 2:
@@ -87,8 +93,8 @@ def simulate_batch(
         return batch
     edges = [n * part // threads for part in range(threads + 1)]
     with ThreadPoolExecutor(threads) as pool:
-        for done in [pool.submit(run, *arguments, *edges[part : part + 2]) for part in range(threads)]:
-            done.result()
+        for _ in pool.map(lambda first, last: run(*arguments, first, last), edges[:-1], edges[1:]):
+            pass
     return batch
 
 
@@ -106,9 +112,7 @@ def _checked_shots(shots: ArrayLike) -> NDArray[np.float64]:
     return strokes
 
 
-def _checked_states(
-    table: Table, states: TableState | NDArray[np.float64], n: int
-) -> NDArray[np.float64]:
+def _checked_states(table: Table, states: TableState | NDArray[np.float64], n: int) -> NDArray[np.float64]:
     if isinstance(states, TableState):
         return checked_positions(table, states)
     positions = np.ascontiguousarray(states)

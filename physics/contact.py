@@ -10,9 +10,7 @@ from physics.engine import kernels
 from physics.errors import PhysicsError
 
 
-def contact_time(
-    c: ArrayLike, b: ArrayLike, a: ArrayLike, t_max: float, distance: float = 2.0 * BALL_RADIUS
-) -> float:
+def contact_time(c: ArrayLike, b: ArrayLike, a: ArrayLike, t_max: float, distance: float = 2.0 * BALL_RADIUS) -> float:
     """Earliest t in [0, t_max] at which |c + b t + a t^2| falls through ``distance``; NaN if none.
 
     Args:

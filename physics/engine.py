@@ -5,6 +5,7 @@ kernel sources has a cache folder of its own, so a stale one cannot be found. Wh
 kernels are compiled for this process alone.
 """
 
+import contextlib
 import functools
 import hashlib
 import importlib
@@ -32,10 +33,8 @@ def cache_folder() -> Path | None:
     """The folder for this engine's compiled kernels, made if need be; None if no place can be written."""
     places = [os.environ.get(CACHE_VARIABLE), os.environ.get("XDG_CACHE_HOME")]
     named = [Path(place) / "pooliad" for place in places if place]
-    try:
+    with contextlib.suppress(RuntimeError):  # there may be no home
         named.append(Path.home() / ".cache" / "pooliad")
-    except RuntimeError:  # no home
-        pass
     for place in [*named, Path(tempfile.gettempdir()) / f"pooliad-{os.getuid() if hasattr(os, 'getuid') else 0}"]:
         folder = place / f"kernels-{digest()[:16]}"
         try:
@@ -54,7 +53,7 @@ def kernels() -> Any:
 
     folder = cache_folder()
     if folder is not None and not any(folder.iterdir()) and not numba.config.DISABLE_JIT:
-        print("pooliad: compiling the physics for this processor, once (about 20 s) ...", file=sys.stderr)
+        sys.stderr.write("pooliad: compiling the physics for this processor, once (10 to 20 s) ...\n")
     before = numba.config.CACHE_DIR
     try:
         numba.config.CACHE_DIR = str(folder or tempfile.mkdtemp(prefix="pooliad-"))

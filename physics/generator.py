@@ -95,10 +95,8 @@ def normal_quantile(p: float) -> float:
         r = 0.180625 - q * q
         return q * _horner(_A, r) / _horner(_B, r)
     r = math.sqrt(-natural_logarithm(p if q < 0.0 else 1.0 - p))
-    if r <= 5.0:
-        z = _horner(_C, r - 1.6) / _horner(_D, r - 1.6)
-    else:
-        z = _horner(_E, r - 5.0) / _horner(_F, r - 5.0)
+    near = r <= 5.0
+    z = _horner(_C, r - 1.6) / _horner(_D, r - 1.6) if near else _horner(_E, r - 5.0) / _horner(_F, r - 5.0)
     return -z if q < 0.0 else z
 
 

@@ -1,7 +1,5 @@
 """A table as the kernels see it: one row of numbers."""
 
-import functools
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,14 +10,22 @@ NO_SLIP, NO_SLIP_HISTORICAL = 1e-12, 1e-10
 """m/s. A slip below this is rolling and a speed below it is rest: rounding of a velocity is 1e-15 m/s. The second
 value is the historical engine's."""
 
+_KEPT_AS = "_kernel_parameters"
+
 HISTORICAL_BRACKET = 0.999425
 HISTORICAL_INERTIA = 0.4 * 0.160 * 0.995473 / BALL_MASS
 """The historical strike: a factor on its bracket, and its moment of inertia over m R^2."""
 
 
-@functools.lru_cache(maxsize=64)
 def parameters(table: Table) -> NDArray[np.float64]:
     """(1, P_SIZE) float64, read-only; the order is that of ``physics.kernels.layout``."""
+    known = table.__dict__.get(_KEPT_AS)  # a cache keyed by the table would hash its 20 numbers at every shot
+    if known is None:
+        known = table.__dict__[_KEPT_AS] = _row(table)
+    return known
+
+
+def _row(table: Table) -> NDArray[np.float64]:
     radius = table.ball_radius
     half_x, half_y = 0.5 * table.width, 0.5 * table.length
     historical = table.collisions == "fastfiz"
@@ -41,6 +47,8 @@ def parameters(table: Table) -> NDArray[np.float64]:
             *(table.v_max, table.theta_max),
             NO_SLIP_HISTORICAL if historical else NO_SLIP,
             *((HISTORICAL_BRACKET, HISTORICAL_INERTIA) if historical else (1.0, 0.4)),
+            1.0 / radius,
+            *(2.0 / (7.0 * table.mu_slide * table.gravity), 1.0 / (table.mu_roll * table.gravity), 1.0 / spin),
         ]
     )
     row.flags.writeable = False

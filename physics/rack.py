@@ -28,9 +28,7 @@ _REDRAWS: Final = 64
 this last resort is never seen, it only makes the end of the loop certain."""
 
 
-def rack(
-    table: Table, game: str = "eight_ball", *, seed: int | bytes, gap: float | None = None
-) -> TableState:
+def rack(table: Table, game: str = "eight_ball", *, seed: int | bytes, gap: float | None = None) -> TableState:
     """The balls racked for a break, the cue ball just behind the head string at (W/2, 3L/4 + R).
 
     The apex lies on the foot spot, the 8 in the middle of the third row, a solid and a stripe in the two back
@@ -88,17 +86,11 @@ def _lattice(table: Table, gap: float) -> NDArray[np.float64]:
     depth = spacing * (0.5 * math.sqrt(3.0))
     x, y = table.foot_spot
     return np.array(
-        [
-            (x + (column - 0.5 * row) * spacing, y - row * depth)
-            for row in range(_ROWS)
-            for column in range(row + 1)
-        ]
+        [(x + (column - 0.5 * row) * spacing, y - row * depth) for row in range(_ROWS) for column in range(row + 1)]
     )
 
 
-def _jittered(
-    places: NDArray[np.float64], sigma: float, diameter: float, stream: SeededStream
-) -> NDArray[np.float64]:
+def _jittered(places: NDArray[np.float64], sigma: float, diameter: float, stream: SeededStream) -> NDArray[np.float64]:
     """The places moved at random: x then y of each in order, all drawn again while any two balls touch."""
     for _ in range(_REDRAWS):
         draws = [sigma * stream.gaussian() for _ in range(places.size)]

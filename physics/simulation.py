@@ -22,6 +22,13 @@ TRACE_ROWS = 192
 """Events a trace has room for at first; a shot with more is simulated again with room for all."""
 
 TRACE_WIDTH = 20
+"""Numbers in a row of the trace: see physics.kernels.layout."""
+
+Floats = NDArray[np.float64]
+
+NO_SHOT: Floats = np.zeros((1, 5))
+NO_TRACE: Floats = np.zeros((1, 0))
+NO_COUNTERS: NDArray[np.int64] = np.zeros((0, 4), np.int64)
 
 
 class Result:
@@ -37,10 +44,10 @@ class Result:
     def __init__(
         self,
         table: Table,
-        start: NDArray[np.float64],
-        final: NDArray[np.float64],
-        facts: NDArray[np.void],
-        trace: NDArray[np.float64] | None,
+        start: Floats,
+        final: Floats,
+        facts: Floats,
+        trace: Floats | None,
         n_events: int,
     ) -> None:
         self.table = table
@@ -58,17 +65,17 @@ class Result:
     @property
     def duration(self) -> float:
         """Time until the last ball came to rest, s."""
-        return float(self._facts["duration"][0])
+        return self.facts.duration
 
     @property
     def status(self) -> Status:
         """How the shot ended."""
-        return Status(int(self._facts["status"][0]))
+        return Status(self.facts.status)
 
     @cached_property
     def facts(self) -> Facts:
         """What rules need to know."""
-        return Facts.from_record(self._facts[0])
+        return Facts.from_record(self._facts.view(FACTS_DTYPE)[0, 0])
 
     @cached_property
     def events(self) -> Events:
@@ -106,7 +113,7 @@ class Result:
         if int(self.duration / dt) * dt < self.duration:
             yield self.at(self.duration)
 
-    def _rows(self) -> NDArray[np.float64]:
+    def _rows(self) -> Floats:
         if self._trace is None:
             raise ValueError("there is no trace: the shot was simulated with trace=False")
         return self._trace
@@ -132,23 +139,12 @@ def simulate(table: Table, state: TableState, shot: Shot, trace: bool = True) ->
     """
     if not isinstance(shot, Shot):
         raise InvalidShot("shot", shot, "must be a physics.Shot")
-    positions = checked_positions(table, state)
-    stroke = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b]])
-    final = np.empty((1, 2 * N_BALLS))
-    facts = np.empty(1, FACTS_DTYPE)
-    views = facts.view(np.int32).reshape(1, -1), facts.view(np.float64).reshape(1, -1)
-    entry, row = kernels().simulate_one, parameters(table)
-    rows = TRACE_ROWS if trace else 0
-    events = np.empty((1, rows * TRACE_WIDTH))
-    n_events = entry(row, positions, stroke, final, *views, events, rows)
-    if trace and n_events > rows:
-        events = np.empty((1, n_events * TRACE_WIDTH))
-        entry(row, positions, stroke, final, *views, events, n_events)
-    return Result(table, positions, final, facts, _cut(events, n_events) if trace else None, n_events)
+    stroke = np.array((shot.v, shot.phi, shot.theta, shot.a, shot.b)).reshape(1, 5)
+    return _run(table, checked_positions(table, state), stroke, trace)
 
 
 def resume(table: Table, snapshot: Snapshot, trace: bool = True) -> Result:
-    """Go on from a snapshot, its time counting as 0. There is no cue strike; positions are those of the snapshot.
+    """Go on from a snapshot, its time counting as 0. There is no cue strike, and ``facts`` count from here.
 
     Raises:
         InvalidState: the snapshot holds something that is not finite.
@@ -156,25 +152,28 @@ def resume(table: Table, snapshot: Snapshot, trace: bool = True) -> Result:
     states = snapshot.to_states()
     if not np.isfinite(states).all():
         raise InvalidState("snapshot", "not finite", "positions, velocities and spins must be finite numbers")
-    final = np.empty((1, 2 * N_BALLS))
-    facts = np.empty(1, FACTS_DTYPE)
-    views = facts.view(np.int32).reshape(1, -1), facts.view(np.float64).reshape(1, -1)
-    entry, row = kernels().resume_one, parameters(table)
+    return _run(table, states, NO_SHOT, trace)
+
+
+def _run(table: Table, states: Floats, stroke: Floats, trace: bool) -> Result:
+    """One row through the kernel; a trace that turns out too short is written again, with room for all."""
+    final, facts = np.empty((1, 2 * N_BALLS)), np.empty((1, FACTS_DTYPE.itemsize // 8))
+    integers = facts.view(np.int32)
+    outputs = final, np.empty((1, N_BALLS), np.int8), np.empty(1, np.int8), integers, facts
+    entry, row = kernels().simulate_rows, parameters(table)
     rows = TRACE_ROWS if trace else 0
-    events = np.empty((1, rows * TRACE_WIDTH))
-    n_events = entry(row, states, final, *views, events, rows)
+    events = np.empty((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
+    entry(row, states, stroke, *outputs, events, rows, NO_COUNTERS, 0, 1)
+    n_events = int(integers[0, 1])
     if trace and n_events > rows:
         events = np.empty((1, n_events * TRACE_WIDTH))
-        entry(row, states, final, *views, events, n_events)
-    return Result(table, states, final, facts, _cut(events, n_events) if trace else None, n_events)
+        entry(row, states, stroke, *outputs, events, n_events, NO_COUNTERS, 0, 1)
+    kept = events.reshape(-1, TRACE_WIDTH)[:n_events] if trace else None
+    return Result(table, states, final, facts, kept, n_events)
 
 
-def checked_positions(table: Table, state: TableState) -> NDArray[np.float64]:
+def checked_positions(table: Table, state: TableState) -> Floats:
     """(1, 32) positions of a state whose balls all lie inside this table's cushion lines and outside its mouths."""
     if not isinstance(state, TableState):
         raise InvalidState("state", state, "must be a physics.TableState")
     return state.valid_on(table).positions.reshape(1, -1)
-
-
-def _cut(events: NDArray[np.float64], n_events: int) -> NDArray[np.float64]:
-    return events.reshape(-1, TRACE_WIDTH)[:n_events]

@@ -67,7 +67,7 @@ class Events:
         position = range(len(self))[index]
         row = self._rows[position].tolist()
         kind, ball, other = KINDS[int(row[1])], int(row[2]), int(row[3])
-        states = (self._state(ball, row[4:12]),)
+        states: tuple[BallState, ...] = (self._state(ball, row[4:12]),)
         if kind is EventKind.BALL_COLLISION:
             states = (*states, self._state(other, row[12:20]))
         return Event(position, row[0], kind, ball, other, states)

@@ -5,7 +5,7 @@ from physics.kernels.layout import (
     HX,
     HY,
     MOTION,
-    P_RADIUS,
+    P_PER_RADIUS,
     P_SPIN,
     P_SPIN_SLIDING,
     ROLLING,
@@ -51,7 +51,7 @@ def advance(p, w, k, i, time):
         store(w, WZ + i, decayed(load(w, WZ + i), load(p, P_SPIN), dt))
         return
     vx, vy, hx, hy = load(w, VX + i), load(w, VY + i), load(w, HX + i), load(w, HY + i)
-    radius = load(p, P_RADIUS)
+    per_radius = load(p, P_PER_RADIUS)
     store(w, X + i, along(load(w, X + i), vx, hx, dt))
     store(w, Y + i, along(load(w, Y + i), vy, hy, dt))
     vx = vx + 2.0 * hx * dt
@@ -59,11 +59,11 @@ def advance(p, w, k, i, time):
     store(w, VX + i, vx)
     store(w, VY + i, vy)
     if motion == SLIDING:
-        turn = 5.0 * dt / radius
+        turn = 5.0 * dt * per_radius
         store(w, WX + i, load(w, WX + i) + turn * hy)
         store(w, WY + i, load(w, WY + i) - turn * hx)
         store(w, WZ + i, decayed(load(w, WZ + i), load(p, P_SPIN_SLIDING), dt))
     elif motion == ROLLING:
-        store(w, WX + i, -vy / radius)
-        store(w, WY + i, vx / radius)
+        store(w, WX + i, -vy * per_radius)
+        store(w, WY + i, vx * per_radius)
         store(w, WZ + i, decayed(load(w, WZ + i), load(p, P_SPIN), dt))

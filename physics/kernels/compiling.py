@@ -54,6 +54,18 @@ def _storer(item: Any, argument: Any) -> Any:
     return intrinsic(store)
 
 
+def _plain_lowest_bit(bits: int) -> int:
+    return (bits & -bits).bit_length() - 1
+
+
+@intrinsic
+def _lowest_bit(_typing: Any, bits: Any) -> Any:
+    def code(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+        return builder.cttz(arguments[0], ir.Constant(ir.IntType(1), 1))
+
+    return types.int64(types.int64), code
+
+
 def _row_view(array: Any, index: int) -> Any:
     return array[index]
 
@@ -79,20 +91,19 @@ _double, _int32, _int64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
 row: Callable[[Any, int], Any] = _row_view if INTERPRETED else numba.njit(nogil=True)(_row_address)
 """``row(array, index)``: memory of one row of a C-contiguous array (n, m)."""
 
+lowest_bit: Callable[[int], int] = _plain_lowest_bit if INTERPRETED else _lowest_bit
+"""``lowest_bit(bits)``: place of the lowest bit of a set that is not empty."""
+
 load: Callable[[Any, int], float] = _plain_load if INTERPRETED else _loader(_double, types.float64)
 """``load(memory, index)``: a float64."""
 
 store: Callable[[Any, int, float], None] = _plain_store if INTERPRETED else _storer(_double, types.float64)
 """``store(memory, index, value)``: a float64."""
 
-load_integer: Callable[[Any, int], int] = (
-    _plain_load_integer if INTERPRETED else _loader(_int64, types.int64)
-)
+load_integer: Callable[[Any, int], int] = _plain_load_integer if INTERPRETED else _loader(_int64, types.int64)
 """``load_integer(memory, index)``: an int64."""
 
-store_integer: Callable[[Any, int, int], None] = (
-    _plain_store if INTERPRETED else _storer(_int64, types.int64)
-)
+store_integer: Callable[[Any, int, int], None] = _plain_store if INTERPRETED else _storer(_int64, types.int64)
 """``store_integer(memory, index, value)``: an int64."""
 
 store_fact: Callable[[Any, int, int], None] = _plain_store if INTERPRETED else _storer(_int32, types.int64)

@@ -1,8 +1,8 @@
 """Entry points: what the Python layer calls. Arrays in, arrays out; compiled once and cached.
 
 Every array is C-contiguous and two-dimensional, one shot a row: ``p`` (1, P_SIZE) float64; ``positions`` (n, 32) or
-(1, 32) for all; ``states`` (1, 128); ``shots`` (n, 5); ``facts`` (n, 138) int32 and ``facts_float`` (n, 69) float64
-are two views of one structured array; ``trace`` (1, rows * TRACE_WIDTH).
+(1, 32) for all; ``states`` the same or (n, 128); ``shots`` (n, 5); ``facts`` (n, 138) int32 and ``facts_float``
+(n, 69) float64 are two views of one structured array; ``trace`` (1, rows * TRACE_WIDTH).
 """
 
 import numba
@@ -13,12 +13,13 @@ from physics.kernels.compiling import kernel, load, load_integer, row, small_ker
 from physics.kernels.detect.contact import contact
 from physics.kernels.detect.line import may_lie
 from physics.kernels.layout import (
+    ABSENT,
     BALL_COLLISION,
     F_POCKET,
     K_SIZE,
     LANES,
+    LOOKS,
     MOTION,
-    N_EVENTS,
     P_HALF_X,
     P_HALF_Y,
     POCKETED,
@@ -31,8 +32,8 @@ from physics.kernels.layout import (
     T_SECOND,
     T_TIME,
     TRACE_WIDTH,
-    W_SIZE,
     VX,
+    W_SIZE,
     X,
     Y,
 )
@@ -43,66 +44,60 @@ from physics.kernels.strike import MILLIMETRE, lowest_elevation, obstacle, unpla
 
 entry = numba.njit(error_model="numpy", nogil=True, cache=True)
 
-ON_TABLE, ABSENT_FROM_START = -1, -2
-"""Values of a batch's ``pocket`` for a ball that was not pocketed."""
+ABSENT_FROM_START = -2
+"""Value of a batch's ``pocket`` for a ball that was not on the table; -1 is one that stayed on it."""
 
 
 @small_kernel
 def collect(p, w, k, positions, final):
     """Write where the balls lie, in the table's frame; a ball that never moved keeps the bits it came with."""
+    half_x, half_y = load(p, P_HALF_X), load(p, P_HALF_Y)
     for i in range(LANES):
-        x, y = np.nan, np.nan
-        if load_integer(k, MOTION + i) < POCKETED:
-            x, y = load(positions, 2 * i), load(positions, 2 * i + 1)
-            if load(w, X + i) != x - load(p, P_HALF_X) or load(w, Y + i) != y - load(p, P_HALF_Y):
-                x, y = load(w, X + i) + load(p, P_HALF_X), load(w, Y + i) + load(p, P_HALF_Y)
-        store(final, 2 * i, x)
-        store(final, 2 * i + 1, y)
+        on_table = load_integer(k, MOTION + i) < POCKETED
+        x, y = load(positions, 2 * i), load(positions, 2 * i + 1)
+        new_x, new_y = load(w, X + i), load(w, Y + i)
+        still = (new_x == x - half_x) & (new_y == y - half_y)
+        store(final, 2 * i, (x if still else new_x + half_x) if on_table else np.nan)
+        store(final, 2 * i + 1, (y if still else new_y + half_y) if on_table else np.nan)
 
 
 @entry
-def simulate_rows(p, positions, shots, final, pockets, status, facts, facts_float, first, last):
-    """Simulate shots ``first`` to ``last`` - 1. ``pockets`` (n, 16) int8 and ``status`` (n,) int8 are filled too."""
-    w = np.empty((1, W_SIZE))
-    k = np.empty((1, K_SIZE), np.int64)
-    table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
-    shared = positions.shape[0] == 1
-    for n in range(first, last):
-        at = row(positions, 0 if shared else n)
-        fact = row(facts, n)
-        status[n] = play(
-            table, floats, integers, fact, row(facts_float, n), floats, 0, at, row(shots, n)
-        )
-        collect(table, floats, integers, at, row(final, n))
-        for i in range(LANES):
-            absent = positions[0 if shared else n, 2 * i] != positions[0 if shared else n, 2 * i]
-            pockets[n, i] = ABSENT_FROM_START if absent else facts[n, F_POCKET + i]
+def simulate_rows(p, states, shots, final, pockets, status, facts, facts_float, trace, rows, counters, first, last):
+    """Simulate rows ``first`` to ``last`` - 1.
 
-
-@entry
-def simulate_one(p, positions, shot, final, facts, facts_float, trace, rows):
-    """Simulate one shot with room for ``rows`` events in the trace; number of events it had."""
-    w = np.empty((1, W_SIZE))
-    k = np.empty((1, K_SIZE), np.int64)
-    table, floats, integers, at = row(p, 0), row(w, 0), row(k, 0), row(positions, 0)
-    play(table, floats, integers, row(facts, 0), row(facts_float, 0), row(trace, 0), rows, at, row(shot, 0))
-    collect(table, floats, integers, at, row(final, 0))
-    return k[0, N_EVENTS]
-
-
-@entry
-def resume_one(p, states, final, facts, facts_float, trace, rows):
-    """Go on from ``states`` in motion; number of events. Positions of ``final`` in the table's frame."""
+    ``states``: positions at rest, of width 32, each struck by its shot; or balls in motion, of width 128, which go on
+    (``shots`` is not read then). ``rows``: events ``trace`` has room for, of one shot. ``counters``: (n, 4) int64,
+    filled with the work done (predictions, pairs past the filter, contacts solved, boundary looks), or (0, 4).
+    """
     w = np.empty((1, W_SIZE))
     k = np.empty((1, K_SIZE), np.int64)
     start = np.empty((1, 2 * LANES))
+    table, floats, integers, events = row(p, 0), row(w, 0), row(k, 0), row(trace, 0)
+    moving = states.shape[1] != 2 * LANES
+    for n in range(first, last):
+        given = row(states, n if states.shape[0] > 1 else 0)
+        fact, fact_float = row(facts, n), row(facts_float, n)
+        if moving:
+            status[n] = go_on(table, floats, integers, fact, fact_float, events, rows, given)
+            take_positions(given, row(start, 0))
+            given = row(start, 0)
+        else:
+            status[n] = play(table, floats, integers, fact, fact_float, events, rows, given, row(shots, n))
+        collect(table, floats, integers, given, row(final, n))
+        for i in range(LANES):
+            motion = k[0, MOTION + i]
+            pockets[n, i] = ABSENT_FROM_START if motion == ABSENT else facts[n, F_POCKET + i]
+        if counters.shape[0] > 0:
+            for c in range(4):
+                counters[n, c] = k[0, LOOKS + c]
+
+
+@small_kernel
+def take_positions(states, positions):
+    """Copy the positions out of 16 states."""
     for i in range(LANES):
-        start[0, 2 * i] = states[0, STATE_WIDTH * i]
-        start[0, 2 * i + 1] = states[0, STATE_WIDTH * i + 1]
-    table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
-    go_on(table, floats, integers, row(facts, 0), row(facts_float, 0), row(trace, 0), rows, row(states, 0))
-    collect(table, floats, integers, row(start, 0), row(final, 0))
-    return k[0, N_EVENTS]
+        store(positions, 2 * i, load(states, STATE_WIDTH * i))
+        store(positions, 2 * i + 1, load(states, STATE_WIDTH * i + 1))
 
 
 @kernel

@@ -79,4 +79,6 @@ P_CUE_TEST, P_CUE_LENGTH, P_NOSE = 19, 20, 21
 P_V_MAX, P_THETA_MAX = 22, 23
 P_NO_SLIP = 24  # m/s
 P_BRACKET, P_INERTIA = 25, 26  # strike: factor of the bracket, and I / (m R^2)
-P_SIZE = 27
+P_PER_RADIUS = 27  # 1/m
+P_SLIDE_LASTS, P_ROLL_LASTS, P_SPIN_LASTS = 28, 29, 30  # s per m/s of slip, of speed; s per rad/s of spin
+P_SIZE = 31

@@ -6,6 +6,7 @@ from physics.kernels.compiling import (
     kernel,
     load,
     load_integer,
+    lowest_bit,
     small_kernel,
     store,
     store_fact,
@@ -35,6 +36,7 @@ from physics.kernels.layout import (
     KIND,
     LANES,
     LOOK_AGAIN,
+    MEET_BALL,
     MEET_POCKET,
     MOTION,
     N_EVENTS,
@@ -43,6 +45,8 @@ from physics.kernels.layout import (
     P_HALF_X,
     P_HALF_Y,
     P_HEAD,
+    P_LINE_X,
+    P_LINE_Y,
     PAIRS,
     PARTNER,
     POCKET_COLLISION,
@@ -63,10 +67,10 @@ from physics.kernels.layout import (
 )
 from physics.kernels.recording import CUE_BALL, record
 from physics.kernels.resolve.cloth import begin, transition
-from physics.kernels.resolve.cluster import FAILED, restate, settle
+from physics.kernels.resolve.cluster import FAILED, NOBODY, restate, settle
 from physics.kernels.resolve.touching import NO_CUSHION, bring, neighbours, touched_cushion
 from physics.kernels.strike import MILLIMETRE, strike, unplayable
-from physics.kernels.tolerances import EVENT_LIMIT
+from physics.kernels.tolerances import EVENT_LIMIT, TOUCH
 
 AT_REST, TOO_MANY_EVENTS = 0, 5
 """Numbers of physics.Status."""
@@ -93,26 +97,40 @@ def earliest(w, k):
     time = load(w, NEXT)
     for i in range(1, LANES):
         time = min(time, load(w, NEXT + i))
-    chosen = 0
-    rank = LOOK_AGAIN + 1
+    due = 0
     for i in range(LANES):
-        if load(w, NEXT + i) == time and load_integer(k, KIND + i) < rank and load_integer(k, KIND + i) != NOTHING:
+        due |= int(load(w, NEXT + i) == time) << i
+    chosen = lowest_bit(due)
+    due &= due - 1
+    while due != 0:
+        i = lowest_bit(due)
+        due &= due - 1
+        if load_integer(k, KIND + i) < load_integer(k, KIND + chosen):
             chosen = i
-            rank = load_integer(k, KIND + i)
     return chosen, time
 
 
 @kernel
-def note_frozen(p, w, k, facts):
+def note_frozen(p, w, k, facts, alive):
     """Note which balls touch a cushion or the cue ball at the start."""
-    touching_cue = 0
-    if load_integer(k, MOTION) < POCKETED:
-        touching_cue = neighbours(p, w, k, CUE_BALL, 0.0)
+    for n in range(F_FROZEN_CUSHION, F_FROZEN_CUE + LANES):
+        store_fact(facts, n, 0)
+    rest = neighbours(p, w, k, CUE_BALL, 0.0) if alive & 1 else 0
+    while rest != 0:
+        store_fact(facts, F_FROZEN_CUE + lowest_bit(rest), 1)
+        rest &= rest - 1
+    near_x, near_y = load(p, P_LINE_X) - TOUCH, load(p, P_LINE_Y) - TOUCH
+    rest = 0
     for i in range(LANES):
+        rest |= int((abs(load(w, X + i)) >= near_x) | (abs(load(w, Y + i)) >= near_y)) << i
+    rest &= alive
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
         cushion = touched_cushion(p, w, k, i)
-        store_integer(k, FROZEN + i, cushion + 1 if cushion != NO_CUSHION else 0)
-        store_fact(facts, F_FROZEN_CUSHION + i, 1 if cushion != NO_CUSHION else 0)
-        store_fact(facts, F_FROZEN_CUE + i, touching_cue >> i & 1)
+        if cushion != NO_CUSHION:
+            store_integer(k, FROZEN + i, cushion + 1)
+            store_fact(facts, F_FROZEN_CUSHION + i, 1)
 
 
 @small_kernel
@@ -138,29 +156,35 @@ def pocket(p, w, k, facts, trace, i, time):
 
 
 @kernel
-def end_motion(p, w, k, facts, facts_float, trace, i, time):
-    """Ball ``i`` ends its motion state; bit set of the balls to predict anew, or FAILED."""
+def end_motion(p, w, k, facts, facts_float, trace, alive, i, time):
+    """Ball ``i`` ends its motion state; bit set of the balls still to predict, or FAILED.
+
+    Its new acceleration may press it against what it touches: then the contact rule has its say.
+    """
     bring(p, w, k, facts, i, time)
     event = transition(p, w, k, i)
     record(w, k, trace, time, event, i, -1)
-    if event != SPINNING_STATIONARY and (
-        neighbours(p, w, k, i, time) != 0 or touched_cushion(p, w, k, i) != NO_CUSHION
-    ):
-        return settle(p, w, k, facts, facts_float, trace, 1 << i, time)
-    return 1 << i
+    touched = predict(p, w, k, alive, i, time)
+    if event != SPINNING_STATIONARY and (touched != 0 or touched_cushion(p, w, k, i) != NO_CUSHION):
+        return settle(p, w, k, facts, facts_float, trace, i, NOBODY, time)
+    return 0
 
 
 @kernel
 def predict_all(p, w, k, alive, changed, now):
     """Predict the next events of the balls in ``changed``."""
-    for i in range(LANES):
-        if changed >> i & 1:
-            release(k, i)
-            store(w, NEXT + i, load(w, END + i))
-            store_integer(k, KIND + i, TRANSITION if load(w, END + i) < math.inf else NOTHING)
-    for i in range(LANES):
-        if changed >> i & 1:
-            predict(p, w, k, alive, i, now)
+    rest = changed
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        release(k, i)
+        store(w, NEXT + i, load(w, END + i))
+        store_integer(k, KIND + i, TRANSITION if load(w, END + i) < math.inf else NOTHING)
+    rest = changed
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        predict(p, w, k, alive, i, now)
 
 
 @kernel
@@ -178,17 +202,33 @@ def run(p, w, k, facts, facts_float, trace, alive, changed):
             continue
         now = time
         if kind == TRANSITION:
-            changed = end_motion(p, w, k, facts, facts_float, trace, i, now)
+            changed = end_motion(p, w, k, facts, facts_float, trace, alive, i, now)
         elif kind == MEET_POCKET:
             pocket(p, w, k, facts, trace, i, now)
             alive &= ~(1 << i)
             changed = 0
         else:
-            changed = settle(p, w, k, facts, facts_float, trace, 1 << i, now)
+            partner = load_integer(k, PARTNER + i) if kind == MEET_BALL else NOBODY
+            changed = settle(p, w, k, facts, facts_float, trace, i, partner, now)
         if changed == FAILED:
             break
         predict_all(p, w, k, alive, changed, now)
     return TOO_MANY_EVENTS, now
+
+
+@small_kernel
+def clear(w, k):
+    """No ball is on the table."""
+    for n in range(VX, END):
+        store(w, n, 0.0)
+    for i in range(LANES):
+        store(w, X + i, FAR_AWAY * float(i + 1))
+        store(w, Y + i, 0.0)
+        store(w, END + i, math.inf)
+        store(w, NEXT + i, math.inf)
+        store_integer(k, MOTION + i, ABSENT)
+        store_integer(k, KIND + i, NOTHING)
+        store_integer(k, FROZEN + i, 0)
 
 
 @kernel
@@ -197,9 +237,9 @@ def place(p, w, k, positions):
 
     Returns the bit set of balls on the table.
     """
+    clear(w, k)
     alive = 0
     for i in range(LANES):
-        put_away(w, k, i, ABSENT)
         x = load(positions, 2 * i)
         if x == x:
             store_integer(k, MOTION + i, STATIONARY)
@@ -215,11 +255,12 @@ def restore(p, w, k, states):
 
     Positions in the table's frame.
     """
+    clear(w, k)
     alive = 0
     for i in range(LANES):
         at = i * STATE_WIDTH
         motion = int(load(states, at + 7))
-        put_away(w, k, i, motion)
+        store_integer(k, MOTION + i, motion)
         if motion < POCKETED:
             store(w, X + i, load(states, at) - load(p, P_HALF_X))
             store(w, Y + i, load(states, at + 1) - load(p, P_HALF_Y))
@@ -257,7 +298,7 @@ def play(p, w, k, facts, facts_float, trace, rows, positions, shot):
     """Simulate one shot from rest; its status. ``shot``: v phi theta a b in Olympiad units."""
     reset(k, facts, facts_float, rows)
     alive = place(p, w, k, positions)
-    note_frozen(p, w, k, facts)
+    note_frozen(p, w, k, facts, alive)
     v, phi, theta = load(shot, 0), load(shot, 1), load(shot, 2)
     a, b = load(shot, 3) * MILLIMETRE, load(shot, 4) * MILLIMETRE
     status = unplayable(p, w, k, v, phi, theta, a, b)
@@ -272,7 +313,7 @@ def play(p, w, k, facts, facts_float, trace, rows, positions, shot):
     restate(p, w, k, 1)
     record(w, k, trace, 0.0, CUE_STRIKE, CUE_BALL, -1)
     note_start(p, w, k, facts)
-    changed = settle(p, w, k, facts, facts_float, trace, 1, 0.0)
+    changed = settle(p, w, k, facts, facts_float, trace, CUE_BALL, NOBODY, 0.0)
     if changed == FAILED:
         return finish(k, facts, facts_float, TOO_MANY_EVENTS, 0.0)
     status, duration = run(p, w, k, facts, facts_float, trace, alive, changed)
@@ -284,7 +325,7 @@ def go_on(p, w, k, facts, facts_float, trace, rows, states):
     """Simulate on from balls in motion; its status. ``states``: see ``restore``."""
     reset(k, facts, facts_float, rows)
     alive = restore(p, w, k, states)
-    note_frozen(p, w, k, facts)
+    note_frozen(p, w, k, facts, alive)
     if alive & 1:
         note_start(p, w, k, facts)
     status, duration = run(p, w, k, facts, facts_float, trace, alive, alive)

@@ -1,7 +1,15 @@
 """What a shot leaves behind: the trace of events, if asked for, and the facts rules need, always."""
 
 from physics.kernels.advance import along
-from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store, store_fact, store_integer
+from physics.kernels.compiling import (
+    kernel,
+    load,
+    load_integer,
+    small_kernel,
+    store,
+    store_fact,
+    store_integer,
+)
 from physics.kernels.layout import (
     BALL_COLLISION,
     CONTACT_SEEN,

@@ -59,8 +59,7 @@ def cosine_of(x, tail):
             + z
             * (
                 2.48015872894767294178e-05
-                + z
-                * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11))
+                + z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11))
             )
         )
     )
@@ -72,8 +71,10 @@ def cosine_of(x, tail):
 @kernel
 def sine_cosine(degrees):
     """(sin, cos) of a finite angle in degrees."""
-    angle = abs(degrees) % 360.0  # exact
-    quarter = int(math.floor(angle / 90.0 + 0.5))
+    angle = abs(degrees)
+    if angle >= 360.0:
+        angle %= 360.0  # exact, but a slow library call
+    quarter = math.floor(angle / 90.0 + 0.5)
     rest = angle - 90.0 * quarter
     size = abs(rest)
     if size == 45.0:

@@ -3,7 +3,7 @@
 import math
 
 from physics.kernels.compiling import kernel, load, small_kernel, store
-from physics.kernels.layout import P_E_BALL, P_MU_BALL, P_RADIUS, VX, VY, WX, WY, WZ, X, Y
+from physics.kernels.layout import P_E_BALL, P_MU_BALL, P_PER_RADIUS, P_RADIUS, VX, VY, WX, WY, WZ, X, Y
 
 HISTORICAL_FRICTION = 0.01
 """The historical engine's factor k |B| / v_n."""
@@ -53,14 +53,15 @@ def rub(p, w, i, j, nx, ny, normal_change, share, shift):
     if slip == 0.0:
         return
     size = min(load(p, P_MU_BALL) * normal_change, slip / (7.0 * share))
-    push_t = size * slip_t / slip
-    push_z = size * slip_z / slip
+    part_of_slip = size / slip
+    push_t = part_of_slip * slip_t
+    push_z = part_of_slip * slip_z
     add(w, shift + VX + i, push_t * ny)
     add(w, shift + VY + i, -push_t * nx)
     add(w, shift + VX + j, -push_t * ny)
     add(w, shift + VY + j, push_t * nx)
     # the same turn for both: -5/(2R) n x s with s = push_t t + push_z k
-    turn = -2.5 / radius
+    turn = -2.5 * load(p, P_PER_RADIUS)
     for ball in (i, j):
         add(w, shift + WX + ball, turn * push_z * ny)
         add(w, shift + WY + ball, -turn * push_z * nx)

@@ -5,32 +5,35 @@ import math
 from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store, store_integer
 from physics.kernels.layout import (
     END,
-    FROZEN,
     HX,
     HY,
-    KIND,
     MOTION,
-    NEXT,
     P_HISTORICAL,
     P_NO_SLIP,
+    P_PER_RADIUS,
     P_RADIUS,
     P_ROLL,
+    P_ROLL_LASTS,
     P_SLIDE,
-    P_SPIN,
+    P_SLIDE_LASTS,
+    P_SPIN_LASTS,
     ROLLING,
+    ROLLING_SPINNING,
+    ROLLING_STATIONARY,
     SINCE,
     SLIDING,
+    SLIDING_ROLLING,
+    SLIDING_SPINNING,
+    SLIDING_STATIONARY,
     SPINNING,
+    SPINNING_STATIONARY,
     STATIONARY,
-    TRANSITION,
     VX,
     VY,
     WX,
     WY,
     WZ,
 )
-from physics.kernels.layout import ROLLING_SPINNING, ROLLING_STATIONARY, SLIDING_ROLLING
-from physics.kernels.layout import SLIDING_SPINNING, SLIDING_STATIONARY, SPINNING_STATIONARY
 
 
 @small_kernel
@@ -63,30 +66,27 @@ def begin(p, w, k, i, motion):
         ux = load(w, VX + i) - radius * load(w, WY + i)
         uy = load(w, VY + i) + radius * load(w, WX + i)
         slip = math.sqrt(ux * ux + uy * uy)
-        friction = load(p, P_SLIDE)
-        pull = -0.5 * friction / slip
+        pull = -0.5 * load(p, P_SLIDE) / slip
         hx = pull * ux
         hy = pull * uy
-        lasts = 2.0 * slip / (7.0 * friction)
+        lasts = slip * load(p, P_SLIDE_LASTS)
     elif motion == ROLLING:
         vx = load(w, VX + i)
         vy = load(w, VY + i)
-        radius = load(p, P_RADIUS)
-        store(w, WX + i, -vy / radius)
-        store(w, WY + i, vx / radius)
+        store(w, WX + i, -vy * load(p, P_PER_RADIUS))
+        store(w, WY + i, vx * load(p, P_PER_RADIUS))
         speed = math.sqrt(vx * vx + vy * vy)
-        friction = load(p, P_ROLL)
-        pull = -0.5 * friction / speed
+        pull = -0.5 * load(p, P_ROLL) / speed
         hx = pull * vx
         hy = pull * vy
-        lasts = speed / friction
+        lasts = speed * load(p, P_ROLL_LASTS)
     else:
         store(w, VX + i, 0.0)
         store(w, VY + i, 0.0)
         store(w, WX + i, 0.0)
         store(w, WY + i, 0.0)
         if motion == SPINNING:
-            lasts = abs(load(w, WZ + i)) / load(p, P_SPIN)
+            lasts = abs(load(w, WZ + i)) * load(p, P_SPIN_LASTS)
     store(w, HX + i, hx)
     store(w, HY + i, hy)
     store(w, END + i, load(w, SINCE + i) + lasts)

@@ -11,7 +11,7 @@ Nothing looks at ball numbers, left or right. Every round parts what approached 
 left alone meets at most once in REST_TIME: it ends.
 """
 
-from physics.kernels.compiling import kernel, load, load_integer, store_integer
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store_integer
 from physics.kernels.layout import (
     BALL_COLLISION,
     CLOSING,
@@ -22,6 +22,7 @@ from physics.kernels.layout import (
     HY,
     LANES,
     N_PAIRS,
+    P_SLIDE,
     PAIRS,
     RAIL_COLLISION,
     VX,
@@ -31,26 +32,38 @@ from physics.kernels.layout import (
     WZ,
 )
 from physics.kernels.recording import CUE_BALL, note_contact, note_cushion, record
+from physics.kernels.resolve.ball_ball import approach, normal
 from physics.kernels.resolve.cloth import begin, classify
 from physics.kernels.resolve.cushion import hold, rebound
-from physics.kernels.resolve.impulses import push_pairs, settle_slow_pairs
+from physics.kernels.resolve.impulses import push_alone, push_pairs, settle_slow_pairs
 from physics.kernels.resolve.resting import energy, part_pressed_pairs, returns_at_once, scale_down
-from physics.kernels.resolve.touching import NO_CUSHION, gather, touched_cushion, towards_cushion
-from physics.kernels.tolerances import ROUND_LIMIT, SOFT_CUSHION
+from physics.kernels.resolve.touching import (
+    NO_CUSHION,
+    bring,
+    gather,
+    neighbours,
+    neighbours_of_two,
+    touched_cushion,
+    towards_cushion,
+)
+from physics.kernels.tolerances import REST_TIME, ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION
 
 FAILED = -1
 """Returned instead of a bit set when ROUND_LIMIT was reached."""
+
+NOBODY = -1
+"""In place of a ball's number."""
 
 
 @kernel
 def restate(p, w, k, members):
     """Give each member the motion state its velocity and spin call for."""
-    for i in range(LANES):
-        if members >> i & 1:
-            motion = classify(
-                p, load(w, VX + i), load(w, VY + i), load(w, WX + i), load(w, WY + i), load(w, WZ + i)
-            )
-            begin(p, w, k, i, motion)
+    rest = members
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        motion = classify(p, load(w, VX + i), load(w, VY + i), load(w, WX + i), load(w, WY + i), load(w, WZ + i))
+        begin(p, w, k, i, motion)
 
 
 @kernel
@@ -64,6 +77,15 @@ def free_from_cushions(w, k, members):
                 store_integer(k, FROZEN + i, 0)
 
 
+@small_kernel
+def report_collision(p, w, k, facts, facts_float, trace, i, j, first, time):
+    """Record a collision; ``first``: the cue ball had struck nothing before this round."""
+    event = record(w, k, trace, time, BALL_COLLISION, i, j)
+    if i == CUE_BALL and first:
+        store_integer(k, CONTACT_SEEN, 1)
+        note_contact(p, w, facts, facts_float, j, event)
+
+
 @kernel
 def report_collisions(p, w, k, facts, facts_float, trace, time):
     """Record the pairs that acted in this round, with the states after it; bit set of the balls involved."""
@@ -72,29 +94,34 @@ def report_collisions(p, w, k, facts, facts_float, trace, time):
     for n in range(load_integer(k, N_PAIRS)):
         if load(w, CLOSING + n) > 0.0:
             pair = load_integer(k, PAIRS + n)
-            i, j = pair // LANES, pair % LANES
-            event = record(w, k, trace, time, BALL_COLLISION, i, j)
+            i, j = pair >> 4, pair & 15
+            report_collision(p, w, k, facts, facts_float, trace, i, j, first, time)
             involved |= 1 << i | 1 << j
-            if i == CUE_BALL and first:
-                store_integer(k, CONTACT_SEEN, 1)
-                note_contact(p, w, facts, facts_float, j, event)
     return involved
+
+
+@small_kernel
+def rebound_and_report(p, w, k, facts, trace, i, cushion, time):
+    """A rail collision of ball ``i``, recorded."""
+    rebound(p, w, i, cushion)
+    restate(p, w, k, 1 << i)
+    event = record(w, k, trace, time, RAIL_COLLISION, i, cushion)
+    if load_integer(k, FROZEN + i) - 1 != cushion:
+        note_cushion(k, facts, i, event)
 
 
 @kernel
 def rebound_approaching(p, w, k, facts, trace, members, time):
     """Rail collisions of the members that approach a cushion faster than SOFT_CUSHION; bit set of them."""
     changed = 0
-    for i in range(LANES):
-        if members >> i & 1:
-            cushion = touched_cushion(p, w, k, i)
-            if cushion != NO_CUSHION and towards_cushion(w, cushion, VX, VY, i) > SOFT_CUSHION:
-                rebound(p, w, i, cushion)
-                restate(p, w, k, 1 << i)
-                event = record(w, k, trace, time, RAIL_COLLISION, i, cushion)
-                if load_integer(k, FROZEN + i) - 1 != cushion:
-                    note_cushion(k, facts, i, event)
-                changed |= 1 << i
+    rest = members
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        cushion = touched_cushion(p, w, k, i)
+        if cushion != NO_CUSHION and towards_cushion(w, cushion, VX, VY, i) > SOFT_CUSHION:
+            rebound_and_report(p, w, k, facts, trace, i, cushion, time)
+            changed |= 1 << i
     return changed
 
 
@@ -105,24 +132,23 @@ def hold_at_cushions(p, w, k, members, also_returning):
     Returns the bit set of them; ``also_returning`` asks for the second kind.
     """
     changed = 0
-    for i in range(LANES):
-        if members >> i & 1:
-            cushion = touched_cushion(p, w, k, i)
-            if cushion != NO_CUSHION:
-                soft = 0.0 < towards_cushion(w, cushion, VX, VY, i) <= SOFT_CUSHION
-                if soft or (also_returning and returns_at_once(w, i, cushion)):
-                    hold(p, w, i, cushion)
-                    changed |= 1 << i
+    rest = members
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        cushion = touched_cushion(p, w, k, i)
+        if cushion != NO_CUSHION:
+            soft = 0.0 < towards_cushion(w, cushion, VX, VY, i) <= SOFT_CUSHION
+            if soft or (also_returning and returns_at_once(w, i, cushion)):
+                hold(p, w, i, cushion)
+                changed |= 1 << i
     return changed
 
 
 @kernel
-def settle(p, w, k, facts, facts_float, trace, seeds, time):
-    """Resolve the touching cluster of the balls in ``seeds`` at ``time``.
-
-    Returns the bit set of all members, anchored at ``time`` in their new motion states, or FAILED.
-    """
-    members = gather(p, w, k, facts, seeds, time)
+def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
+    """``settle`` in full, round by round."""
+    members = gather(p, w, k, facts, 1 << i, time)
     quiet = 0  # balls changed since their last event
     allowed = -1.0  # energy before step 3
     settled = False
@@ -151,7 +177,57 @@ def settle(p, w, k, facts, facts_float, trace, seeds, time):
         quiet = members
         restate(p, w, k, members)
     free_from_cushions(w, k, members)
-    for i in range(LANES):
-        if quiet >> i & 1:
-            record(w, k, trace, time, CONTACT, i, -1)
+    rest = quiet
+    while rest != 0:
+        record(w, k, trace, time, CONTACT, lowest_bit(rest), -1)
+        rest &= rest - 1
     return members
+
+
+@kernel
+def meet_cushion_alone(p, w, k, facts, trace, i, cushion, time):
+    """A ball that touches nothing but a cushion; whether that settles it."""
+    if towards_cushion(w, cushion, VX, VY, i) <= SOFT_CUSHION:
+        return False
+    rebound_and_report(p, w, k, facts, trace, i, cushion, time)
+    free_from_cushions(w, k, 1 << i)
+    return not returns_at_once(w, i, cushion)
+
+
+@kernel
+def meet_ball_alone(p, w, k, facts, facts_float, trace, i, j, time):
+    """Two balls that touch nothing but each other; whether that settles them."""
+    nx, ny, _ = normal(w, i, j)
+    closing = approach(w, i, j, nx, ny)
+    if closing <= SLOW_APPROACH:
+        return False
+    push_alone(p, w, k, i, j, nx, ny, closing)
+    restate(p, w, k, 1 << i | 1 << j)
+    first = load_integer(k, CONTACT_SEEN) == 0
+    report_collision(p, w, k, facts, facts_float, trace, i, j, first, time)
+    free_from_cushions(w, k, 1 << i | 1 << j)
+    # No pair is pressed harder than by sliding friction on both balls.
+    return -approach(w, i, j, nx, ny) > load(p, P_SLIDE) * REST_TIME
+
+
+@kernel
+def settle(p, w, k, facts, facts_float, trace, i, j, time):
+    """Resolve the touching cluster of ball ``i`` at ``time``; ``j``: the ball it meets there, or NOBODY.
+
+    Returns the bit set of all its members, anchored at ``time`` in their new motion states, or FAILED. Two balls
+    alone, and a ball alone at a cushion, are the rule's first round and nothing else: they take a short way.
+    """
+    bring(p, w, k, facts, i, time)
+    cushion = touched_cushion(p, w, k, i)
+    if j != NOBODY and cushion == NO_CUSHION:
+        bring(p, w, k, facts, j, time)
+        near_i, near_j = neighbours_of_two(p, w, i, j, time)
+        if near_i == 1 << j and near_j == 1 << i and touched_cushion(p, w, k, j) == NO_CUSHION:
+            low, high = min(i, j), max(i, j)
+            if meet_ball_alone(p, w, k, facts, facts_float, trace, low, high, time):
+                return 1 << i | 1 << j
+    elif neighbours(p, w, k, i, time) == 0 and (
+        cushion == NO_CUSHION or meet_cushion_alone(p, w, k, facts, trace, i, cushion, time)
+    ):
+        return 1 << i
+    return settle_cluster(p, w, k, facts, facts_float, trace, i, time)

@@ -1,6 +1,14 @@
 """Step 1 of the contact rule: simultaneous impulses between touching balls (docs/physics.md, eq. 26-28)."""
 
-from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store, store_integer
+from physics.kernels.compiling import (
+    kernel,
+    load,
+    load_integer,
+    lowest_bit,
+    small_kernel,
+    store,
+    store_integer,
+)
 from physics.kernels.layout import (
     CHANGE,
     CLOSING,
@@ -30,7 +38,7 @@ def select_pairs(w, k):
     acting = 0
     for n in range(load_integer(k, N_PAIRS)):
         pair = load_integer(k, PAIRS + n)
-        i, j = pair // LANES, pair % LANES
+        i, j = pair >> 4, pair & 15
         nx, ny, _ = normal(w, i, j)
         closing = approach(w, i, j, nx, ny)
         if closing > SLOW_APPROACH:
@@ -46,13 +54,13 @@ def select_pairs(w, k):
 @kernel
 def linked_to(w, k, pair):
     """Bit set of the balls linked to a pair through acting pairs."""
-    group = 1 << (pair // LANES) | 1 << (pair % LANES)
+    group = 1 << (pair >> 4) | 1 << (pair & 15)
     before = 0
     while group != before:
         before = group
         for n in range(load_integer(k, N_PAIRS)):
             other = load_integer(k, PAIRS + n)
-            both = 1 << (other // LANES) | 1 << (other % LANES)
+            both = 1 << (other >> 4) | 1 << (other & 15)
             if load(w, CLOSING + n) > 0.0 and group & both:
                 group |= both
     return group
@@ -68,10 +76,12 @@ def clear_changes(w):
 @small_kernel
 def apply_changes(w, members, scale):
     """Add the changes of a round, times ``scale``, to the velocities and spins of ``members``."""
-    for i in range(LANES):
-        if members >> i & 1:
-            for quantity in (VX, VY, WX, WY, WZ):
-                add(w, quantity + i, scale * load(w, CHANGE + quantity + i))
+    rest = members
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        for quantity in (VX, VY, WX, WY, WZ):
+            add(w, quantity + i, scale * load(w, CHANGE + quantity + i))
 
 
 @kernel
@@ -85,7 +95,7 @@ def push_group(p, w, k, group):
     for n in range(load_integer(k, N_PAIRS)):
         closing = load(w, CLOSING + n)
         pair = load_integer(k, PAIRS + n)
-        i, j = pair // LANES, pair % LANES
+        i, j = pair >> 4, pair & 15
         if closing > 0.0 and group >> i & 1:
             nx, ny, _ = normal(w, i, j)
             part(w, i, j, nx, ny, 0.5 * closing, CHANGE)
@@ -98,7 +108,7 @@ def push_group(p, w, k, group):
     scale = -(1.0 + load(p, P_E_BALL)) * work / size
     apply_changes(w, group, scale)
     for n in range(load_integer(k, N_PAIRS)):
-        i = load_integer(k, PAIRS + n) // LANES
+        i = load_integer(k, PAIRS + n) >> 4
         if group >> i & 1:
             store(w, CLOSING + n, 0.5 * scale * load(w, CLOSING + n))
 
@@ -109,7 +119,7 @@ def rub_linked(p, w, k, members):
     clear_changes(w)
     for n in range(load_integer(k, N_PAIRS)):
         pair = load_integer(k, PAIRS + n)
-        i, j = pair // LANES, pair % LANES
+        i, j = pair >> 4, pair & 15
         share = max(load_integer(k, LINKS + i), load_integer(k, LINKS + j))
         change = load(w, CLOSING + n)
         if change > 0.0 and share > 1:
@@ -119,9 +129,8 @@ def rub_linked(p, w, k, members):
 
 
 @small_kernel
-def push_alone(p, w, k, i, j, closing):
-    """The collision of two balls that share it with no other."""
-    nx, ny, _ = normal(w, i, j)
+def push_alone(p, w, k, i, j, nx, ny, closing):
+    """The collision of two balls that share it with no other; (nx, ny) from i to j."""
     if load(p, P_HISTORICAL) == 0.0:
         collide(p, w, i, j, nx, ny, closing)
     elif load_integer(k, MOTION + i) == STATIONARY:
@@ -140,11 +149,12 @@ def push_pairs(p, w, k, members):
     joint = False
     for n in range(load_integer(k, N_PAIRS)):
         pair = load_integer(k, PAIRS + n)
-        i, j = pair // LANES, pair % LANES
+        i, j = pair >> 4, pair & 15
         closing = load(w, CLOSING + n)
         if closing > 0.0 and done >> i & 1 == 0:
             if load_integer(k, LINKS + i) == 1 and load_integer(k, LINKS + j) == 1:
-                push_alone(p, w, k, i, j, closing)
+                nx, ny, _ = normal(w, i, j)
+                push_alone(p, w, k, i, j, nx, ny, closing)
                 done |= 1 << i | 1 << j
             else:
                 group = linked_to(w, k, pair)
@@ -163,7 +173,7 @@ def settle_slow_pairs(w, k, members):
     clear_changes(w)
     for n in range(load_integer(k, N_PAIRS)):
         pair = load_integer(k, PAIRS + n)
-        i, j = pair // LANES, pair % LANES
+        i, j = pair >> 4, pair & 15
         nx, ny, _ = normal(w, i, j)
         closing = approach(w, i, j, nx, ny)
         if closing > 0.0:

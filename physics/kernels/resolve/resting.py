@@ -2,12 +2,11 @@
 
 import math
 
-from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store
 from physics.kernels.layout import (
     CHANGE,
     HX,
     HY,
-    LANES,
     N_PAIRS,
     P_RADIUS,
     PAIRS,
@@ -52,7 +51,7 @@ def part_pressed_pairs(p, w, k, members):
     changed = 0
     for n in range(load_integer(k, N_PAIRS)):
         pair = load_integer(k, PAIRS + n)
-        i, j = pair // LANES, pair % LANES
+        i, j = pair >> 4, pair & 15
         nx, ny, _ = normal(w, i, j)
         press = pressing(p, w, i, j, nx, ny)
         opening = -approach(w, i, j, nx, ny)
@@ -72,11 +71,13 @@ def energy(p, w, members):
     """Kinetic energy of ``members`` per ball mass, m^2/s^2."""
     inertia = 0.4 * load(p, P_RADIUS) * load(p, P_RADIUS)
     twice = 0.0
-    for i in range(LANES):
-        if members >> i & 1:
-            vx, vy = load(w, VX + i), load(w, VY + i)
-            wx, wy, wz = load(w, WX + i), load(w, WY + i), load(w, WZ + i)
-            twice += vx * vx + vy * vy + inertia * (wx * wx + wy * wy + wz * wz)
+    rest = members
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        vx, vy = load(w, VX + i), load(w, VY + i)
+        wx, wy, wz = load(w, WX + i), load(w, WY + i), load(w, WZ + i)
+        twice += vx * vx + vy * vy + inertia * (wx * wx + wy * wy + wz * wz)
     return 0.5 * twice
 
 
@@ -87,8 +88,10 @@ def scale_down(p, w, members, allowed):
     if now <= allowed:
         return False
     scale = math.sqrt(allowed / now) if allowed >= STOP_BELOW * now else 0.0
-    for i in range(LANES):
-        if members >> i & 1:
-            for quantity in (VX, VY, WX, WY, WZ):
-                store(w, quantity + i, scale * load(w, quantity + i))
+    rest = members
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        for quantity in (VX, VY, WX, WY, WZ):
+            store(w, quantity + i, scale * load(w, quantity + i))
     return True

@@ -1,7 +1,7 @@
 """What touches what at an instant: the geometry the contact rule works on."""
 
 from physics.kernels.advance import advance, along
-from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store_integer
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store_integer
 from physics.kernels.layout import (
     HX,
     HY,
@@ -43,6 +43,23 @@ def neighbours(p, w, k, i, time):
     return found & ~(1 << i)
 
 
+@kernel
+def neighbours_of_two(p, w, i, j, time):
+    """``neighbours`` of two balls anchored at ``time``, in one pass: (of i, of j)."""
+    near = 2.0 * load(p, P_RADIUS) + TOUCH
+    limit = near * near
+    x_i, y_i, x_j, y_j = load(w, X + i), load(w, Y + i), load(w, X + j), load(w, Y + j)
+    found = 0
+    for n in range(LANES):
+        dt = time - load(w, SINCE + n)
+        x = along(load(w, X + n), load(w, VX + n), load(w, HX + n), dt)
+        y = along(load(w, Y + n), load(w, VY + n), load(w, HY + n), dt)
+        at_i = (x - x_i) * (x - x_i) + (y - y_i) * (y - y_i) <= limit
+        at_j = (x - x_j) * (x - x_j) + (y - y_j) * (y - y_j) <= limit
+        found |= int(at_i) << n | int(at_j) << (n + LANES)
+    return found & 0xFFFF & ~(1 << i), found >> LANES & ~(1 << j)
+
+
 @small_kernel
 def bring(p, w, k, facts, i, time):
     """Advance ball ``i`` to ``time``, noting on the way whether the cue ball crosses the head string."""
@@ -61,14 +78,16 @@ def gather(p, w, k, facts, seeds, time):
     waiting = seeds
     links = 0
     while waiting != 0:
-        for i in range(LANES):
-            if waiting >> i & 1:
-                waiting &= ~(1 << i)
-                bring(p, w, k, facts, i, time)
-                found = neighbours(p, w, k, i, time)
-                links |= found
-                waiting |= found & ~members
-                members |= found
+        rest = waiting
+        while rest != 0:
+            i = lowest_bit(rest)
+            rest &= rest - 1
+            waiting &= ~(1 << i)
+            bring(p, w, k, facts, i, time)
+            found = neighbours(p, w, k, i, time)
+            links |= found
+            waiting |= found & ~members
+            members |= found
     store_integer(k, N_PAIRS, 0)
     if links != 0:
         list_pairs(p, w, k, members, time)
@@ -79,13 +98,15 @@ def gather(p, w, k, facts, seeds, time):
 def list_pairs(p, w, k, members, time):
     """List the touching pairs among ``members``."""
     count = 0
-    for i in range(LANES):
-        if members >> i & 1:
-            found = neighbours(p, w, k, i, time)
-            for j in range(i + 1, LANES):
-                if found >> j & 1:
-                    store_integer(k, PAIRS + count, i * LANES + j)
-                    count += 1
+    rest = members
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        found = neighbours(p, w, k, i, time)
+        for j in range(i + 1, LANES):
+            if found >> j & 1:
+                store_integer(k, PAIRS + count, i * LANES + j)
+                count += 1
     store_integer(k, N_PAIRS, count)
 
 
