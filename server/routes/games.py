@@ -12,6 +12,7 @@ from server.errors import (
     OutOfTime,
     Refused,
     StaleVersion,
+    Unauthorized,
     VersionRequired,
 )
 from server.routes.dependencies import Cursor, InHand, Limit, Reader, Sent, Server, respond
@@ -24,7 +25,7 @@ ACTION_PROBLEMS = (*OWNED, VersionRequired, GameFinished, StaleVersion, NotYourT
 RECORD_TYPE = "application/x-ndjson"
 
 
-@router.get("", **describe(NotFound, success={200: GameAnswer}, token=False), summary="How a game stands")
+@router.get("", **describe(NotFound, Unauthorized, success={200: GameAnswer}, token=False), summary="How a game stands")
 def game(game_id: str, context: Server, reader: Reader) -> Response:
     """As a spectator sees it, or as the caller does who plays in it. `ETag` is the version."""
     return respond(history.game(context, game_id, reader))
