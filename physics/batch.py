@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from physics.constants import BALL_RADIUS, N_BALLS, PLACEMENT_TOLERANCE
-from physics.engine import kernels
+from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
 from physics.facts import FACTS_DTYPE
 from physics.parameters import parameters
@@ -83,17 +83,17 @@ def simulate_batch(
         np.empty((n, N_BALLS, 2)), np.empty((n, N_BALLS), np.int8), np.empty(n, np.int8), np.empty(n, FACTS_DTYPE)
     )
     arguments = (
-        *(parameters(table), positions, strokes, batch.positions.reshape(n, -1), batch.pocket, batch.status),
+        *(positions, strokes, batch.positions.reshape(n, -1), batch.pocket, batch.status),
         *(batch.facts.view(np.int32).reshape(n, -1), batch.facts.view(np.float64).reshape(n, -1)),
         *(NO_TRACE, 0, NO_COUNTERS if counters is None else counters),
     )
-    run = kernels().simulate_rows
+    run, row = kernels().simulate_rows, parameters(table)
     if threads == 1 or n < 2:
-        run(*arguments, 0, n)
+        run(row, *workspace(), *arguments, 0, n)
         return batch
     edges = [n * part // threads for part in range(threads + 1)]
     with ThreadPoolExecutor(threads) as pool:
-        for _ in pool.map(lambda first, last: run(*arguments, first, last), edges[:-1], edges[1:]):
+        for _ in pool.map(lambda first, last: run(row, *workspace(), *arguments, first, last), edges[:-1], edges[1:]):
             pass
     return batch
 

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 
 from physics.constants import BALL_RADIUS, CUSHION_NAMES
-from physics.engine import kernels
+from physics.engine import kernels, workspace
 from physics.errors import InvalidShot
 from physics.parameters import parameters
 from physics.shot import Shot
@@ -37,7 +37,7 @@ def check(table: Table, state: TableState, shot: Shot) -> Unplayable | None:
         InvalidState: a ball lies off the table.
     """
     stroke = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b]])
-    number, obstacle = kernels().check_shot(parameters(table), checked_positions(table, state), stroke)
+    number, obstacle = kernels().check_shot(parameters(table), *workspace(), checked_positions(table, state), stroke)
     status = Status(number)
     if status is Status.AT_REST:
         return None
@@ -62,7 +62,7 @@ def min_elevation(table: Table, state: TableState, phi: float, a: float = 0.0, b
     positions = checked_positions(table, state)
     if not table.cue_test:
         return 0.0
-    return float(kernels().elevation_needed(parameters(table), positions, shot.phi, shot.a, shot.b))
+    return float(kernels().elevation_needed(parameters(table), *workspace(), positions, shot.phi, shot.a, shot.b))
 
 
 def _obstacle_name(number: int) -> str:

@@ -15,6 +15,12 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+WORK_FLOATS, WORK_INTEGERS = 392, 216
+"""Size of the kernels' memory: W_SIZE and K_SIZE of ``physics.kernels.layout``, which a test compares."""
+
 CACHE_VARIABLE = "POOLIAD_CACHE_DIR"
 """Environment variable naming the folder for compiled kernels; else the user's cache folder."""
 
@@ -44,6 +50,11 @@ def cache_folder() -> Path | None:
         except OSError:
             continue
     return None
+
+
+def workspace() -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Fresh memory for the kernels to work out one shot at a time in; not to be shared between threads."""
+    return np.empty((1, WORK_FLOATS)), np.empty((1, WORK_INTEGERS), np.int64)
 
 
 @functools.cache

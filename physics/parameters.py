@@ -12,6 +12,11 @@ value is the historical engine's."""
 
 _KEPT_AS = "_kernel_parameters"
 
+REST_TIME, REST_TIME_HISTORICAL = 1e-3, 1e-6
+"""s. A touching pair, or a ball at a cushion, that would meet again sooner is resting. Balls pressed together meet at
+most once in this time; smaller, and persistent contact costs more events, larger, and it shows. The historical engine
+had no such rule: there it only keeps a shot from collisions without end."""
+
 HISTORICAL_BRACKET = 0.999425
 HISTORICAL_INERTIA = 0.4 * 0.160 * 0.995473 / BALL_MASS
 """The historical strike: a factor on its bracket, and its moment of inertia over m R^2."""
@@ -49,6 +54,7 @@ def _row(table: Table) -> NDArray[np.float64]:
             *((HISTORICAL_BRACKET, HISTORICAL_INERTIA) if historical else (1.0, 0.4)),
             1.0 / radius,
             *(2.0 / (7.0 * table.mu_slide * table.gravity), 1.0 / (table.mu_roll * table.gravity), 1.0 / spin),
+            REST_TIME_HISTORICAL if historical else REST_TIME,
         ]
     )
     row.flags.writeable = False

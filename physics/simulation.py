@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.constants import N_BALLS
-from physics.engine import kernels
+from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
 from physics.facts import FACTS_DTYPE, Facts
 from physics.parameters import parameters
@@ -97,7 +97,7 @@ class Result:
         rows = self._rows()
         out = np.empty((1, N_BALLS * 8))
         start = resting_states(self._start.reshape(N_BALLS, 2)) if self._start.size == 2 * N_BALLS else self._start
-        kernels().state_at(parameters(self.table), start, rows.reshape(1, -1), len(rows), float(t), out)
+        kernels().state_at(parameters(self.table), *workspace(), start, rows.reshape(1, -1), len(rows), float(t), out)
         return Snapshot.from_states(self.table, t, out.reshape(N_BALLS, 8))
 
     def sample(self, dt: float) -> Iterator[Snapshot]:
@@ -160,14 +160,14 @@ def _run(table: Table, states: Floats, stroke: Floats, trace: bool) -> Result:
     final, facts = np.empty((1, 2 * N_BALLS)), np.empty((1, FACTS_DTYPE.itemsize // 8))
     integers = facts.view(np.int32)
     outputs = final, np.empty((1, N_BALLS), np.int8), np.empty(1, np.int8), integers, facts
-    entry, row = kernels().simulate_rows, parameters(table)
+    entry, row, work = kernels().simulate_rows, parameters(table), workspace()
     rows = TRACE_ROWS if trace else 0
     events = np.empty((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
-    entry(row, states, stroke, *outputs, events, rows, NO_COUNTERS, 0, 1)
+    entry(row, *work, states, stroke, *outputs, events, rows, NO_COUNTERS, 0, 1)
     n_events = int(integers[0, 1])
     if trace and n_events > rows:
         events = np.empty((1, n_events * TRACE_WIDTH))
-        entry(row, states, stroke, *outputs, events, n_events, NO_COUNTERS, 0, 1)
+        entry(row, *work, states, stroke, *outputs, events, n_events, NO_COUNTERS, 0, 1)
     kept = events.reshape(-1, TRACE_WIDTH)[:n_events] if trace else None
     return Result(table, states, final, facts, kept, n_events)
 

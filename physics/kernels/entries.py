@@ -3,6 +3,9 @@
 Every array is C-contiguous and two-dimensional, one shot a row: ``p`` (1, P_SIZE) float64; ``positions`` (n, 32) or
 (1, 32) for all; ``states`` the same or (n, 128); ``shots`` (n, 5); ``facts`` (n, 138) int32 and ``facts_float``
 (n, 69) float64 are two views of one structured array; ``trace`` (1, rows * TRACE_WIDTH).
+
+``w`` (1, W_SIZE) float64 and ``k`` (1, K_SIZE) int64 are the memory a shot is worked out in. The caller holds them: an
+array made in here would be released after its last use by name, while kernels still address it.
 """
 
 import numba
@@ -16,7 +19,6 @@ from physics.kernels.layout import (
     ABSENT,
     BALL_COLLISION,
     F_POCKET,
-    K_SIZE,
     LANES,
     LOOKS,
     MOTION,
@@ -33,7 +35,6 @@ from physics.kernels.layout import (
     T_TIME,
     TRACE_WIDTH,
     VX,
-    W_SIZE,
     X,
     Y,
 )
@@ -49,12 +50,15 @@ ABSENT_FROM_START = -2
 
 
 @small_kernel
-def collect(p, w, k, positions, final):
-    """Write where the balls lie, in the table's frame; a ball that never moved keeps the bits it came with."""
+def collect(p, w, k, start, stride, final):
+    """Write where the balls lie, in the table's frame; a ball that never moved keeps the bits it came with.
+
+    ``start``: x and y of each ball, ``stride`` numbers apart.
+    """
     half_x, half_y = load(p, P_HALF_X), load(p, P_HALF_Y)
     for i in range(LANES):
         on_table = load_integer(k, MOTION + i) < POCKETED
-        x, y = load(positions, 2 * i), load(positions, 2 * i + 1)
+        x, y = load(start, stride * i), load(start, stride * i + 1)
         new_x, new_y = load(w, X + i), load(w, Y + i)
         still = (new_x == x - half_x) & (new_y == y - half_y)
         store(final, 2 * i, (x if still else new_x + half_x) if on_table else np.nan)
@@ -62,16 +66,15 @@ def collect(p, w, k, positions, final):
 
 
 @entry
-def simulate_rows(p, states, shots, final, pockets, status, facts, facts_float, trace, rows, counters, first, last):
+def simulate_rows(
+    p, w, k, states, shots, final, pockets, status, facts, facts_float, trace, rows, counters, first, last
+):
     """Simulate rows ``first`` to ``last`` - 1.
 
     ``states``: positions at rest, of width 32, each struck by its shot; or balls in motion, of width 128, which go on
     (``shots`` is not read then). ``rows``: events ``trace`` has room for, of one shot. ``counters``: (n, 4) int64,
     filled with the work done (predictions, pairs past the filter, contacts solved, boundary looks), or (0, 4).
     """
-    w = np.empty((1, W_SIZE))
-    k = np.empty((1, K_SIZE), np.int64)
-    start = np.empty((1, 2 * LANES))
     table, floats, integers, events = row(p, 0), row(w, 0), row(k, 0), row(trace, 0)
     moving = states.shape[1] != 2 * LANES
     for n in range(first, last):
@@ -79,25 +82,15 @@ def simulate_rows(p, states, shots, final, pockets, status, facts, facts_float, 
         fact, fact_float = row(facts, n), row(facts_float, n)
         if moving:
             status[n] = go_on(table, floats, integers, fact, fact_float, events, rows, given)
-            take_positions(given, row(start, 0))
-            given = row(start, 0)
         else:
             status[n] = play(table, floats, integers, fact, fact_float, events, rows, given, row(shots, n))
-        collect(table, floats, integers, given, row(final, n))
+        collect(table, floats, integers, given, STATE_WIDTH if moving else 2, row(final, n))
         for i in range(LANES):
             motion = k[0, MOTION + i]
             pockets[n, i] = ABSENT_FROM_START if motion == ABSENT else facts[n, F_POCKET + i]
         if counters.shape[0] > 0:
             for c in range(4):
                 counters[n, c] = k[0, LOOKS + c]
-
-
-@small_kernel
-def take_positions(states, positions):
-    """Copy the positions out of 16 states."""
-    for i in range(LANES):
-        store(positions, 2 * i, load(states, STATE_WIDTH * i))
-        store(positions, 2 * i + 1, load(states, STATE_WIDTH * i + 1))
 
 
 @kernel
@@ -116,10 +109,8 @@ def take_state(p, w, k, memory, at, i, time):
 
 
 @entry
-def state_at(p, states, trace, rows, time, out):
+def state_at(p, w, k, states, trace, rows, time, out):
     """States of all balls at ``time``, from the states at the start and the trace; (1, 128), from the centre."""
-    w = np.empty((1, W_SIZE))
-    k = np.empty((1, K_SIZE), np.int64)
     table, floats, integers, events = row(p, 0), row(w, 0), row(k, 0), row(trace, 0)
     restore(table, floats, integers, row(states, 0))
     last = np.full(LANES, -1)
@@ -140,10 +131,8 @@ def state_at(p, states, trace, rows, time, out):
 
 
 @entry
-def check_shot(p, positions, shot):
+def check_shot(p, w, k, positions, shot):
     """(status, obstacle) of a shot: 0 and -1 when it can be played."""
-    w = np.empty((1, W_SIZE))
-    k = np.empty((1, K_SIZE), np.int64)
     table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
     place(table, floats, integers, row(positions, 0))
     v, phi, theta = shot[0, 0], shot[0, 1], shot[0, 2]
@@ -153,10 +142,8 @@ def check_shot(p, positions, shot):
 
 
 @entry
-def elevation_needed(p, positions, phi, a, b):
+def elevation_needed(p, w, k, positions, phi, a, b):
     """Smallest free elevation in deg, NaN if none; a and b in mm, on the ball."""
-    w = np.empty((1, W_SIZE))
-    k = np.empty((1, K_SIZE), np.int64)
     table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
     place(table, floats, integers, row(positions, 0))
     return lowest_elevation(table, floats, integers, phi, a * MILLIMETRE, b * MILLIMETRE)

@@ -81,4 +81,5 @@ P_NO_SLIP = 24  # m/s
 P_BRACKET, P_INERTIA = 25, 26  # strike: factor of the bracket, and I / (m R^2)
 P_PER_RADIUS = 27  # 1/m
 P_SLIDE_LASTS, P_ROLL_LASTS, P_SPIN_LASTS = 28, 29, 30  # s per m/s of slip, of speed; s per rad/s of spin
-P_SIZE = 31
+P_REST_TIME = 31  # s: see physics.parameters
+P_SIZE = 32

@@ -15,10 +15,6 @@ SOFT_CUSHION = 1e-3
 """m/s. A cushion stops a ball that comes no faster instead of bouncing it, without friction. Without it an
 approach of 1e-16 m/s would cost a ball frozen to a cushion 10 % of its speed and 90 % of its spin."""
 
-REST_TIME = 1e-3
-"""s. A touching pair, or a ball at a cushion, that would meet again sooner is resting. Balls pressed together meet
-at most once in this time; smaller, and persistent contact costs more events, larger, and it shows."""
-
 PRESSING = 1e-14
 """m/s^2. Touching balls whose relative acceleration presses them together no harder are not pressed: over the 10 s of
 a shot that is 5e-13 m."""

@@ -22,6 +22,7 @@ from physics.kernels.layout import (
     HY,
     LANES,
     N_PAIRS,
+    P_REST_TIME,
     P_SLIDE,
     PAIRS,
     RAIL_COLLISION,
@@ -46,7 +47,7 @@ from physics.kernels.resolve.touching import (
     touched_cushion,
     towards_cushion,
 )
-from physics.kernels.tolerances import REST_TIME, ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION
+from physics.kernels.tolerances import ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION
 
 FAILED = -1
 """Returned instead of a bit set when ROUND_LIMIT was reached."""
@@ -56,9 +57,12 @@ NOBODY = -1
 
 
 @kernel
-def restate(p, w, k, members):
-    """Give each member the motion state its velocity and spin call for."""
-    rest = members
+def restate(p, w, k, changed):
+    """Give each ball whose velocity changed the motion state its velocity and spin call for.
+
+    The others keep theirs: one that is about to end its state does so by an event of its own.
+    """
+    rest = changed
     while rest != 0:
         i = lowest_bit(rest)
         rest &= rest - 1
@@ -139,7 +143,7 @@ def hold_at_cushions(p, w, k, members, also_returning):
         cushion = touched_cushion(p, w, k, i)
         if cushion != NO_CUSHION:
             soft = 0.0 < towards_cushion(w, cushion, VX, VY, i) <= SOFT_CUSHION
-            if soft or (also_returning and returns_at_once(w, i, cushion)):
+            if soft or (also_returning and returns_at_once(p, w, i, cushion)):
                 hold(p, w, i, cushion)
                 changed |= 1 << i
     return changed
@@ -153,20 +157,24 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
     allowed = -1.0  # energy before step 3
     settled = False
     for _ in range(ROUND_LIMIT):
-        if push_pairs(p, w, k, members) != 0:
-            restate(p, w, k, members)
+        pushed = push_pairs(p, w, k, members)
+        if pushed != 0:
+            restate(p, w, k, pushed)
             quiet &= ~report_collisions(p, w, k, facts, facts_float, trace, time)
             continue
         rebounding = rebound_approaching(p, w, k, facts, trace, members, time)
         held = hold_at_cushions(p, w, k, members, False)
+        restate(p, w, k, held)
         quiet = quiet & ~rebounding | held
         if rebounding | held:
             continue
-        quiet |= settle_slow_pairs(w, k, members)
-        restate(p, w, k, members)
+        changed = settle_slow_pairs(w, k, members)
+        restate(p, w, k, changed)
+        quiet |= changed
         if allowed < 0.0:
             allowed = energy(p, w, members)
         changed = part_pressed_pairs(p, w, k, members) | hold_at_cushions(p, w, k, members, True)
+        restate(p, w, k, changed)
         quiet |= changed
         if changed == 0:
             settled = True
@@ -191,7 +199,7 @@ def meet_cushion_alone(p, w, k, facts, trace, i, cushion, time):
         return False
     rebound_and_report(p, w, k, facts, trace, i, cushion, time)
     free_from_cushions(w, k, 1 << i)
-    return not returns_at_once(w, i, cushion)
+    return not returns_at_once(p, w, i, cushion)
 
 
 @kernel
@@ -207,7 +215,7 @@ def meet_ball_alone(p, w, k, facts, facts_float, trace, i, j, time):
     report_collision(p, w, k, facts, facts_float, trace, i, j, first, time)
     free_from_cushions(w, k, 1 << i | 1 << j)
     # No pair is pressed harder than by sliding friction on both balls.
-    return -approach(w, i, j, nx, ny) > load(p, P_SLIDE) * REST_TIME
+    return -approach(w, i, j, nx, ny) > load(p, P_SLIDE) * load(p, P_REST_TIME)
 
 
 @kernel

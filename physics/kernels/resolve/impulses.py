@@ -141,9 +141,8 @@ def push_alone(p, w, k, i, j, nx, ny, closing):
 
 @kernel
 def push_pairs(p, w, k, members):
-    """Let all touching pairs that approach act together; how many there were."""
-    acting = select_pairs(w, k)
-    if acting == 0:
+    """Let all touching pairs that approach act together; bit set of the balls involved."""
+    if select_pairs(w, k) == 0:
         return 0
     done = 0
     joint = False
@@ -163,7 +162,7 @@ def push_pairs(p, w, k, members):
                 joint = True
     if joint:
         rub_linked(p, w, k, members)
-    return acting
+    return done
 
 
 @kernel

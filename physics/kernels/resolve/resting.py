@@ -9,6 +9,7 @@ from physics.kernels.layout import (
     HY,
     N_PAIRS,
     P_RADIUS,
+    P_REST_TIME,
     PAIRS,
     VX,
     VY,
@@ -19,7 +20,7 @@ from physics.kernels.layout import (
 from physics.kernels.resolve.ball_ball import approach, normal, part
 from physics.kernels.resolve.impulses import apply_changes, clear_changes
 from physics.kernels.resolve.touching import towards_cushion
-from physics.kernels.tolerances import PRESSING, REST_TIME, SLOW_APPROACH
+from physics.kernels.tolerances import PRESSING, SLOW_APPROACH
 
 PARTING_SLACK = 1e-3 * SLOW_APPROACH
 """m/s. A pair that opens slower than it should by less than this is left: the rounding of its velocities (1e-15 m/s)
@@ -30,10 +31,10 @@ STOP_BELOW = 0.5
 
 
 @small_kernel
-def returns_at_once(w, i, cushion):
-    """Whether ball ``i``'s own acceleration brings it back to a cushion it touches within REST_TIME."""
+def returns_at_once(p, w, i, cushion):
+    """Whether ball ``i``'s own acceleration brings it back to a cushion it touches within the rest time."""
     half = towards_cushion(w, cushion, HX, HY, i)
-    return half > 0.0 and -towards_cushion(w, cushion, VX, VY, i) < half * REST_TIME
+    return half > 0.0 and -towards_cushion(w, cushion, VX, VY, i) < half * load(p, P_REST_TIME)
 
 
 @small_kernel
@@ -47,16 +48,17 @@ def pressing(p, w, i, j, nx, ny):
 
 @kernel
 def part_pressed_pairs(p, w, k, members):
-    """Part every touching pair that would meet again within REST_TIME, all at once; bit set of those changed."""
+    """Part every touching pair that would meet again within the rest time, all at once; bit set of those changed."""
     changed = 0
+    rest_time = load(p, P_REST_TIME)
     for n in range(load_integer(k, N_PAIRS)):
         pair = load_integer(k, PAIRS + n)
         i, j = pair >> 4, pair & 15
         nx, ny, _ = normal(w, i, j)
         press = pressing(p, w, i, j, nx, ny)
         opening = -approach(w, i, j, nx, ny)
-        wanted = max(0.5 * press * REST_TIME, 2.0 * SLOW_APPROACH)
-        if press > PRESSING and opening < 0.5 * press * REST_TIME and opening < wanted - PARTING_SLACK:
+        wanted = max(0.5 * press * rest_time, 2.0 * SLOW_APPROACH)
+        if press > PRESSING and opening < 0.5 * press * rest_time and opening < wanted - PARTING_SLACK:
             if changed == 0:
                 clear_changes(w)
             part(w, i, j, nx, ny, 0.5 * (wanted - opening), CHANGE)
