@@ -62,8 +62,7 @@ def outcome(kind: str, n: int, flights: int, moved: bool) -> Outcome:
     """Ends, events and faults of one class."""
     table, states, shots = stress.scene_of(kind, SEED, n)
     if moved:
-        shots[:, hostile.V] = np.nextafter(shots[:, hostile.V], np.inf)
-        shots[:, hostile.V] = np.minimum(shots[:, hostile.V], table.v_max)
+        shots[:, hostile.V] = np.nextafter(shots[:, hostile.V], 0.0)
     batch = physics.simulate_batch(table, states, shots)
     verdict = soundness.judge(table, states, batch)
     followed = np.flatnonzero(batch.status == physics.Status.AT_REST)[:flights].tolist()
