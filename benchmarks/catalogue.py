@@ -6,6 +6,8 @@ BENCHMARKS = {
     "constants": "what each constant of the contact rule changes when it is ten times larger or smaller",
     "error_vs_time": "run time against error: this engine, time stepping, scipy's solve_ivp",
     "paper_claims": "the paper's operation counts and its comparison of quartic solvers, measured again",
+    "contact_reference": "10^7 pairs: the contact solver's answers against a certified reference",
+    "error_growth": "error against the number of collisions, by the arbitrary-precision engine",
     "scaling": "balls, threads, batch size; cost of an event where nothing is near",
     "savings": "counters of the work done and skipped, and what each saving is worth",
 }

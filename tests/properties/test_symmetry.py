@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from support.play import joint, play
+from support.play import joint, play, sensitivity
 from support.scenes import LENGTH, WIDTH, Scene, scenes
 
 import physics
@@ -22,6 +22,9 @@ FRAME_ROUNDING = 4.5e-16
 
 JOINT = 1e-9
 """m; where a cluster was resolved jointly, sums may round differently."""
+
+SHARE = 1000.0
+"""A shot that rounding alone moves farther may differ by this many times what one ulp of v does to its end."""
 
 Signs = tuple[int, int]
 Story = dict[int, list[tuple[float, ...]]]
@@ -55,11 +58,14 @@ def image(scene: Scene, signs: Signs) -> Scene:
     return replace(scene, positions=places, stroke=(v, phi, theta, a * sx * sy, b))
 
 
+IMPACTS = ("ball_collision", "rail_collision", "pocket_collision")
+
+
 def story(result: physics.Result, signs: Signs = (1, 1), name: Callable[[int], int] = int) -> Story:
-    """Per ball: time, kind, motion, velocity and spin after each of its events, undone by the symmetry."""
+    """Per ball: time, kind, motion, velocity and spin after each of its impacts, undone by the symmetry."""
     sx, sy = signs
     told: Story = {}
-    for event in result.events:
+    for event in [event for event in result.events if event.kind.value in IMPACTS]:
         for ball in event.states:
             (vx, vy), (wx, wy, wz) = ball.velocity, ball.spin
             turned = (sx * vx, sy * vy, sy * wx, sx * wy, sx * sy * wz)
@@ -86,7 +92,8 @@ def test_mirror_images_and_half_turns(scene: Scene, signs: Signs):
     scene = centred(scene)
     one, two = play(scene), play(image(scene, signs))
     if joint(one):
-        assert farthest(one, two, signs) <= JOINT
+        off = farthest(one, two, signs)
+        assert off <= JOINT or off <= SHARE * sensitivity(scene)
     else:
         assert one.duration == two.duration
         assert story(one) == story(two, signs)
@@ -102,7 +109,8 @@ def test_renumbered_object_balls(scene: Scene, random):
     renumbered = replace(scene, positions={names[i]: place for i, place in scene.positions.items()})
     one, two = play(scene), play(renumbered)
     if joint(one):
-        assert farthest(two, one, (1, 1), names.__getitem__) <= JOINT
+        off = farthest(two, one, (1, 1), names.__getitem__)
+        assert off <= JOINT or off <= SHARE * sensitivity(scene)
     else:
         assert one.duration == two.duration
         assert story(one, name=names.__getitem__) == story(two)

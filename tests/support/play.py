@@ -1,5 +1,8 @@
 """A drawn scene played by the engine under test."""
 
+import math
+from dataclasses import replace
+
 from support.scenes import Scene
 
 import physics
@@ -28,3 +31,18 @@ def joint(result: physics.Result) -> bool:
                 return True
             balls |= {event.ball, event.other}
     return False
+
+
+def apart(one: physics.TableState, two: physics.TableState) -> float:
+    """Largest distance between the places of a ball in two ends (m); infinite if it is in play in one only."""
+    if one.balls != two.balls:
+        return math.inf
+    return max((math.dist(one.position(ball), two.position(ball)) for ball in one.balls), default=0.0)
+
+
+def sensitivity(scene: Scene, table: physics.Table = OPEN) -> float:
+    """How far the end moves when v moves by one ulp, up or down (m): what rounding alone can do to this shot."""
+    v, *others = scene.stroke
+    end = play(scene, table, trace=False).final
+    nudged = [replace(scene, stroke=(math.nextafter(v, to), *others)) for to in (0.0, 10.0)]
+    return max(apart(end, play(other, table, trace=False).final) for other in nudged)

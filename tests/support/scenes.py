@@ -105,7 +105,7 @@ def collinear(draw: st.DrawFn) -> list[Position]:
     """A straight line of balls, touching or apart."""
     balls, heading = [draw(inner)], draw(compass)
     for _ in range(draw(st.integers(1, 5))):
-        balls.append(beside(balls[-1], heading, draw(st.sampled_from([0.0, 0.0, 1e-12, 1e-6, 0.01, 0.1]))))
+        balls.append(beside(balls[-1], heading, draw(st.sampled_from([0.0, 0.0, 1e-10, 1e-6, 0.01, 0.1]))))
     return balls
 
 
