@@ -116,9 +116,7 @@ class AsyncPooliad:
         """The record of a finished game: JSON lines that `pooliad replay verify` accepts."""
         return await self._send(calls.record(game_id))
 
-    async def simulate(
-        self, table: Table, state: TableState, shot: Shot, trace: bool = True
-    ) -> SimulateAnswer:
+    async def simulate(self, table: Table, state: TableState, shot: Shot, trace: bool = True) -> SimulateAnswer:
         """One shot on the server's physics."""
         return await self._send(calls.simulate(table, state, shot, trace))
 

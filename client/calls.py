@@ -132,9 +132,7 @@ def record(game_id: str) -> Call[bytes]:
 
 def simulate(table: Table, state: TableState, shot: Shot, trace: bool) -> Call[SimulateAnswer]:
     """One shot on the server's physics."""
-    request = SimulateRequest.model_validate(
-        _scene(table, state) | {"shot": ShotParameters.of(shot), "trace": trace}
-    )
+    request = SimulateRequest.model_validate(_scene(table, state) | {"shot": ShotParameters.of(shot), "trace": trace})
     return Call("POST", "/v1/simulate", _reader(SimulateAnswer), body=_json(request), pure=True)
 
 
@@ -146,9 +144,7 @@ def simulate_batch(table: Table, state: TableState, shots: list[Shot]) -> Call[B
     return Call("POST", "/v1/simulate/batch", _reader(BatchAnswer), body=_json(request), pure=True)
 
 
-def min_elevation(
-    table: Table, state: TableState, phi: float, a: float, b: float
-) -> Call[MinElevationAnswer]:
+def min_elevation(table: Table, state: TableState, phi: float, a: float, b: float) -> Call[MinElevationAnswer]:
     """The least elevation (deg) at which the cue is free."""
     request = MinElevationRequest.model_validate(_scene(table, state) | {"phi": phi, "a": a, "b": b})
     return Call("POST", "/v1/min-elevation", _reader(MinElevationAnswer), body=_json(request), pure=True)

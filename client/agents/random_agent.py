@@ -67,9 +67,7 @@ class RandomAgent(Agent):
             phi = float(self._chance.uniform(0.0, 360.0))
             theta = physics.min_elevation(table, state, phi)
             if theta + ELEVATION_MARGIN <= table.theta_max:  # False for NaN: blocked at every elevation
-                return physics.Shot(
-                    float(self._chance.uniform(SLOWEST, FASTEST)), phi, theta + ELEVATION_MARGIN
-                )
+                return physics.Shot(float(self._chance.uniform(SLOWEST, FASTEST)), phi, theta + ELEVATION_MARGIN)
         raise RuntimeError(f"no direction is free for the cue after {TRIES} draws: {state!r}")
 
     def _any(self, choices: Sequence[Choice]) -> Choice:

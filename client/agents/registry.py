@@ -49,9 +49,7 @@ def _class_at(path: str) -> Any:
     """The agent class at an import path."""
     module, _, attribute = path.partition(":")
     if not module or not attribute:
-        raise AgentNotFound(
-            f"there is no agent {path!r}; shipped are {sorted(SHIPPED)}, others go by module:Class"
-        )
+        raise AgentNotFound(f"there is no agent {path!r}; shipped are {sorted(SHIPPED)}, others go by module:Class")
     try:
         found = getattr(importlib.import_module(module), attribute)
     except (ImportError, AttributeError) as error:

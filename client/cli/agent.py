@@ -22,9 +22,7 @@ def _group() -> None:
 def run(
     name: Annotated[str, typer.Argument(help="random, greedy, or module:Class of your own.")],
     url: Annotated[str, typer.Option(envvar="POOLIAD_URL", help="Address of the server.")],
-    token: Annotated[
-        str, typer.Option(envvar="POOLIAD_TOKEN", help="The agent's token; better in the environment.")
-    ],
+    token: Annotated[str, typer.Option(envvar="POOLIAD_TOKEN", help="The agent's token; better in the environment.")],
     seed: Annotated[int | None, typer.Option(min=0, help="Makes a shipped agent repeat its choices.")] = None,
     as_json: Json = False,
 ) -> None:

@@ -58,9 +58,7 @@ class Child:
     def last_words(self, lines: int = 15) -> str:
         """The end of what it wrote, for an error message."""
         written = self.log.read_text(errors="replace").splitlines()
-        return (
-            "\n".join(f"  {self.name}: {line}" for line in written[-lines:]) or f"  {self.name} wrote nothing"
-        )
+        return "\n".join(f"  {self.name}: {line}" for line in written[-lines:]) or f"  {self.name} wrote nothing"
 
 
 @contextlib.contextmanager

@@ -23,9 +23,7 @@ def server_command(host: str, port: int, database: str) -> list[str]:
 
 def serve(
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
-    port: Annotated[
-        int, typer.Option(min=0, max=65535, help="Port to listen on; 0 picks a free one.")
-    ] = 8080,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port to listen on; 0 picks a free one.")] = 8080,
     database: Annotated[
         str, typer.Option(envvar="POOLIAD_DATABASE", help="Where games are kept: sqlite:///path.")
     ] = "sqlite:///pooliad.db",

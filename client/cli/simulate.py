@@ -22,9 +22,7 @@ def simulate(
         str | None,
         typer.Option(help="Where the balls lie: 0:0.5,1.7 3:0.4,0.6 or JSON, or @FILE with either."),
     ] = None,
-    rack: Annotated[
-        int | None, typer.Option(min=0, help="A fresh 8-ball rack from this seed instead.")
-    ] = None,
+    rack: Annotated[int | None, typer.Option(min=0, help="A fresh 8-ball rack from this seed instead.")] = None,
     table: Annotated[str, typer.Option(help="olympiad, fastfiz, or JSON with parameters.")] = "olympiad",
     as_json: Json = False,
 ) -> None:

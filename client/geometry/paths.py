@@ -8,9 +8,7 @@ from client.geometry.aim import Point
 from physics import TableState
 
 
-def blockers(
-    state: TableState, start: Point, end: Point, radius: float, ignore: Iterable[int] = ()
-) -> tuple[int, ...]:
+def blockers(state: TableState, start: Point, end: Point, radius: float, ignore: Iterable[int] = ()) -> tuple[int, ...]:
     """Balls that a ball of `radius` (m) moving from `start` to `end` would hit, in order of their numbers.
 
     `ignore` names the balls that do not count: the mover itself, and the ball it is meant to strike.

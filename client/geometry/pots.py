@@ -65,14 +65,10 @@ def pot(table: Table, state: TableState, ball: int, pocket: int) -> Pot:
     return Pot(ball, pocket, ghost, phi, cut, reach, run, in_the_way, tolerance)
 
 
-def pots(
-    table: Table, state: TableState, balls: Iterable[int], pockets: Iterable[int] = range(6)
-) -> list[Pot]:
+def pots(table: Table, state: TableState, balls: Iterable[int], pockets: Iterable[int] = range(6)) -> list[Pot]:
     """The open straight pots of `balls` into `pockets`, the most forgiving first."""
     into = tuple(pockets)
-    thin_enough = [
-        (ball, pocket) for ball in balls for pocket in into if _can_be_cut(table, state, ball, pocket)
-    ]
+    thin_enough = [(ball, pocket) for ball in balls for pocket in into if _can_be_cut(table, state, ball, pocket)]
     found = [pot(table, state, ball, pocket) for ball, pocket in thin_enough]
     return sorted((each for each in found if each.is_open), key=lambda each: -each.tolerance)
 

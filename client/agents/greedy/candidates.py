@@ -70,9 +70,7 @@ class Candidates:
         theta = self._elevation(before, phi, b)
         if math.isnan(theta):
             return []
-        return [
-            Plan(Action(shot=Shot(v, phi, theta, 0.0, b), call=call, cue_ball=place), before) for v in speeds
-        ]
+        return [Plan(Action(shot=Shot(v, phi, theta, 0.0, b), call=call, cue_ball=place), before) for v in speeds]
 
     def _elevation(self, before: TableState, phi: float, b: float) -> float:
         """The least elevation (deg) at which the cue stays free under noise; NaN when there is none."""
