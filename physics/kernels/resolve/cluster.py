@@ -37,7 +37,7 @@ from physics.kernels.resolve.ball_ball import approach, normal
 from physics.kernels.resolve.cloth import begin, classify
 from physics.kernels.resolve.cushion import hold, rebound
 from physics.kernels.resolve.impulses import push_alone, push_pairs, settle_slow_pairs
-from physics.kernels.resolve.resting import energy, part_pressed_pairs, returns_at_once, scale_down
+from physics.kernels.resolve.resting import STOP_BELOW, energy, part_pressed_pairs, returns_at_once, scale_down
 from physics.kernels.resolve.touching import (
     NO_CUSHION,
     bring,
@@ -168,15 +168,15 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
         quiet = quiet & ~rebounding | held
         if rebounding | held:
             continue
-        changed = settle_slow_pairs(w, k, members)
-        restate(p, w, k, changed)
-        quiet |= changed
         if allowed < 0.0:
+            changed = settle_slow_pairs(w, k, members)
+            restate(p, w, k, changed)
+            quiet |= changed
             allowed = energy(p, w, members)
         changed = part_pressed_pairs(p, w, k, members) | hold_at_cushions(p, w, k, members, True)
         restate(p, w, k, changed)
         quiet |= changed
-        if changed == 0:
+        if changed == 0 or STOP_BELOW * energy(p, w, members) > allowed:
             settled = True
             break
     if not settled:
