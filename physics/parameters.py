@@ -17,6 +17,10 @@ REST_TIME, REST_TIME_HISTORICAL = 1e-3, 1e-6
 most once in this time; smaller, and persistent contact costs more events, larger, and it shows. The historical engine
 had no such rule: there it only keeps a shot from collisions without end."""
 
+REST_AT_SLIDE, REST_AT_ROLL = 0.2, 0.015
+"""Cloth friction of the Olympiad's table, for which REST_TIME is meant. On a slower cloth everything takes longer, and
+so does rest: else a shot of 1000 s could have a million meetings."""
+
 HISTORICAL_BRACKET = 0.999425
 HISTORICAL_INERTIA = 0.4 * 0.160 * 0.995473 / BALL_MASS
 """The historical strike: a factor on its bracket, and its moment of inertia over m R^2."""
@@ -28,6 +32,10 @@ def parameters(table: Table) -> NDArray[np.float64]:
     if known is None:
         known = table.__dict__[_KEPT_AS] = _row(table)
     return known
+
+
+def _rest_time(table: Table) -> float:
+    return REST_TIME * max(1.0, REST_AT_SLIDE / table.mu_slide, REST_AT_ROLL / table.mu_roll)
 
 
 def _row(table: Table) -> NDArray[np.float64]:
@@ -54,7 +62,7 @@ def _row(table: Table) -> NDArray[np.float64]:
             *((HISTORICAL_BRACKET, HISTORICAL_INERTIA) if historical else (1.0, 0.4)),
             1.0 / radius,
             *(2.0 / (7.0 * table.mu_slide * table.gravity), 1.0 / (table.mu_roll * table.gravity), 1.0 / spin),
-            REST_TIME_HISTORICAL if historical else REST_TIME,
+            REST_TIME_HISTORICAL if historical else _rest_time(table),
         ]
     )
     row.flags.writeable = False

@@ -107,11 +107,11 @@ def meet_boundary(p, k, x, y, vx, vy, hx, hy, lasts):
         t = crossing(max(line_y + y, 0.0), -vy, -hy)
         if t < best:
             best, kind, number = t, MEET_CUSHION, SOUTH
-    if abs(x) >= line_x - TOUCH and vx == 0.0 and hx == 0.0 and abs(y) >= load(p, P_SIDE):
-        # Rolling along a long cushion: the mouth opens at its horn.
+    if abs(x) >= line_x - TOUCH and abs(y) >= load(p, P_SIDE):
+        # Running along a long cushion: the mouth opens at its horn.
         side = 1.0 if y > 0.0 else -1.0
         t = crossing(abs(y) - load(p, P_SIDE), -side * vy, -side * hy)
-        if t < best:
+        if t < best and abs(along(x, vx, hx, t)) >= line_x - TOUCH:
             best, kind, number = t, MEET_POCKET, POCKET_E if x > 0.0 else POCKET_W
     store_integer(k, CUSHION_LOOKS, load_integer(k, CUSHION_LOOKS) + 1)
     t = earlier_corner(p, x, y, vx, vy, hx, hy, -1.0, -1.0, best)
