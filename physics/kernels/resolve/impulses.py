@@ -1,4 +1,4 @@
-"""Step 1 of the contact rule: simultaneous impulses between touching balls (docs/physics.md, eq. 26-28)."""
+"""Step 1 of the contact rule: simultaneous impulses between touching balls (docs/physics.md, eq. 26-27)."""
 
 from physics.kernels.compiling import (
     kernel,
