@@ -4,7 +4,8 @@ from typing import Annotated
 
 import typer
 
-from client.cli.output import USAGE, Json, emit, fail, say
+from client.cli.output import Json, emit, say
+from client.cli.players import load_player
 
 
 def commands() -> typer.Typer:
@@ -33,17 +34,10 @@ def run(
     import logging
     import sys
 
-    from client.agents.registry import load
-    from client.errors import AgentNotFound
     from client.run import run_agent
 
     logging.basicConfig(stream=sys.stderr, format="%(asctime)s %(levelname)s %(message)s")
-    sys.path.insert(0, "")
-    try:
-        factory = load(name, seed)
-    except AgentNotFound as error:
-        fail(str(error), USAGE)
-    over = run_agent(factory, url, token)
+    over = run_agent(load_player(name, seed), url, token)
     if as_json:
         emit(over.model_dump(mode="json"))
     else:

@@ -25,16 +25,12 @@ def demo(
     """Play a real 8-ball match: embedded server and database, two agents as processes, over HTTP."""
     import secrets
 
-    from client.agents.registry import load
+    from client.cli.players import load_player
     from client.cli.processes import children
     from client.cli.stage import Stage
-    from client.errors import AgentNotFound
 
-    try:
-        for name in agents:
-            load(name)
-    except AgentNotFound as error:
-        fail(str(error), USAGE)
+    for name in agents:
+        load_player(name)
     seed = secrets.randbelow(2**32) if seed is None else seed
     directory = _directory(out)
     with children() as started:

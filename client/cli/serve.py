@@ -18,7 +18,8 @@ def server_command(host: str, port: int, database: str) -> list[str]:
     missing = [name for name in NEEDED if find_spec(name) is None]
     if missing:
         fail(f"the server needs {', '.join(missing)}; install it with: pip install 'pooliad[server]'")
-    return [sys.executable, "-m", "server", "--host", host, "--port", str(port), "--database", database]
+    # -P: a folder called server where the user stands is not ours
+    return [sys.executable, "-P", "-m", "server", "--host", host, "--port", str(port), "--database", database]
 
 
 def serve(

@@ -63,7 +63,7 @@ class Stage:
     def _enter(self, organiser: Pooliad, url: str, name: str, program: str) -> AgentView:
         """Register an agent and start its process."""
         entry = organiser.register(name)
-        command = [sys.executable, "-m", "client.cli", "agent", "run", program]
+        command = [sys.executable, "-P", "-m", "client.cli", "agent", "run", program]
         command += ["--seed", str(self._seed)] if program in SHIPPED else []
         environment = {"POOLIAD_URL": url, "POOLIAD_TOKEN": entry.token}
         self._children.append(Child(name, command, self._directory / f"{name}.log", environment))

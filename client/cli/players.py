@@ -1,0 +1,27 @@
+"""The agents a command is told to play with, by name."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from client.cli.output import USAGE, fail
+
+if TYPE_CHECKING:
+    from client.agent import AgentFactory
+
+
+def load_player(name: str, seed: int | None = None) -> "AgentFactory":
+    """What makes the instances of an agent; leaves the command when there is none of this name.
+
+    Modules in the current directory are found too, but last: none of them may stand in for an installed one.
+    """
+    from client.agents.registry import load
+    from client.errors import AgentNotFound
+
+    here = str(Path.cwd())
+    if here not in sys.path:
+        sys.path.append(here)
+    try:
+        return load(name, seed)
+    except AgentNotFound as error:
+        fail(str(error), USAGE)
