@@ -66,6 +66,18 @@ def _lowest_bit(_typing: Any, bits: Any) -> Any:
     return types.int64(types.int64), code
 
 
+def _itself(number: int) -> int:
+    return number
+
+
+@intrinsic
+def _plain(_typing: Any, _number: Any) -> Any:
+    def code(_context: Any, _builder: Any, _signature: Any, arguments: Any) -> Any:
+        return arguments[0]
+
+    return types.int64(types.int64), code
+
+
 def _row_view(array: Any, index: int) -> Any:
     return array[index]
 
@@ -90,6 +102,10 @@ _double, _int32, _int64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
 
 row: Callable[[Any, int], Any] = _row_view if INTERPRETED else numba.njit(nogil=True)(_row_address)
 """``row(array, index)``: memory of one row of a C-contiguous array (n, m)."""
+
+plain: Callable[[int], int] = _itself if INTERPRETED else _plain
+"""``plain(number)``: a constant passed on as any number. numba compiles a function anew for each constant it is called
+with; for a large one that is worth preventing."""
 
 lowest_bit: Callable[[int], int] = _plain_lowest_bit if INTERPRETED else _lowest_bit
 """``lowest_bit(bits)``: place of the lowest bit of a set that is not empty."""

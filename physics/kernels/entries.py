@@ -38,9 +38,10 @@ from physics.kernels.layout import (
     X,
     Y,
 )
-from physics.kernels.loop import go_on, place, play, put_away, restore
+from physics.kernels.loop import go_on, play
 from physics.kernels.recording import write_state
 from physics.kernels.resolve.cloth import begin
+from physics.kernels.start import place, put_away, restore
 from physics.kernels.strike import MILLIMETRE, lowest_elevation, obstacle, unplayable
 
 entry = numba.njit(error_model="numpy", nogil=True, cache=True)

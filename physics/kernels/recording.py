@@ -104,7 +104,7 @@ def note_crossing(p, w, k, facts, time):
             store_fact(facts, F_CROSSED_BEFORE, event)
 
 
-@small_kernel
+@kernel
 def note_contact(p, w, facts, facts_float, ball, event):
     """Note a ball the cue ball strikes in the first round of contacts it makes."""
     store_fact(facts, F_FIRST + ball, event)
@@ -112,7 +112,7 @@ def note_contact(p, w, facts, facts_float, ball, event):
     store(facts_float, F_CUE_Y, load(w, Y) + load(p, P_HALF_Y))
 
 
-@small_kernel
+@kernel
 def note_cushion(k, facts, ball, event):
     """Note that a ball was driven to a cushion."""
     bit = 1 << ball

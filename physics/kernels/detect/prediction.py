@@ -202,12 +202,12 @@ def predict(p, w, k, alive, i, now):
     others = alive & ~(1 << i)
     found = lanes & others
     if found != 0:
-        store_integer(k, PAIRS_LEFT, load_integer(k, PAIRS_LEFT) + 1)
         lasts = load(w, END + i) - now if moving else math.inf
         rest = found
         while rest != 0:
             j = lowest_bit(rest)
             rest &= rest - 1
+            store_integer(k, PAIRS_LEFT, load_integer(k, PAIRS_LEFT) + 1)
             other_moves = moves(load_integer(k, MOTION + j))
             if moving or other_moves:
                 t = meeting(w, k, j, x, y, vx, vy, hx, hy, now, lasts, other_moves, best, diameter)

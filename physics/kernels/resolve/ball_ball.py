@@ -89,7 +89,7 @@ def collide(p, w, i, j, nx, ny, closing):
 def collide_historically(p, w, i, j, nx, ny, j_rests):
     """The law of FastFiz 0.2, faults included; ball i moves. Eq. 18-19.
 
-    ``j_rests``: ball j neither moves nor spins; then spin is transferred with opposite signs, else both balls are
+    ``j_rests`` (0 or 1): ball j neither moves nor spins; then spin is transferred with opposite signs, else both are
     set to natural roll.
     """
     radius = load(p, P_RADIUS)
@@ -112,7 +112,7 @@ def collide_historically(p, w, i, j, nx, ny, j_rests):
     store(w, VY + i, v2n * ny + v1t * ty)
     store(w, VX + j, v1n * nx + v2t * tx)
     store(w, VY + j, v1n * ny + v2t * ty)
-    if j_rests:
+    if j_rests != 0:
         turn = -2.5 * k / (HISTORICAL_RADIUS * radius)
         turn_x = turn * ny * bz
         turn_y = -turn * nx * bz

@@ -2,7 +2,7 @@
 
 import math
 
-from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store, store_integer
+from physics.kernels.compiling import kernel, load, load_integer, plain, small_kernel, store, store_integer
 from physics.kernels.layout import (
     END,
     HX,
@@ -102,16 +102,16 @@ def transition(p, w, k, i):
         vy = load(w, VY + i)
         limit = load(p, P_NO_SLIP)
         if vx * vx + vy * vy > limit * limit:
-            begin(p, w, k, i, ROLLING)
+            begin(p, w, k, i, plain(ROLLING))
             return SLIDING_ROLLING
         if wz != 0.0:
-            begin(p, w, k, i, SPINNING)
+            begin(p, w, k, i, plain(SPINNING))
             return SLIDING_SPINNING
-        begin(p, w, k, i, STATIONARY)
+        begin(p, w, k, i, plain(STATIONARY))
         return SLIDING_STATIONARY
     if motion == ROLLING and wz != 0.0:
-        begin(p, w, k, i, SPINNING)
+        begin(p, w, k, i, plain(SPINNING))
         return ROLLING_SPINNING
     store(w, WZ + i, 0.0)
-    begin(p, w, k, i, STATIONARY)
+    begin(p, w, k, i, plain(STATIONARY))
     return ROLLING_STATIONARY if motion == ROLLING else SPINNING_STATIONARY

@@ -11,7 +11,7 @@ Nothing looks at ball numbers, left or right. Every round parts what approached 
 left alone meets at most once in REST_TIME: it ends.
 """
 
-from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store_integer
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store_integer
 from physics.kernels.layout import (
     BALL_COLLISION,
     CLOSING,
@@ -84,7 +84,7 @@ def free_from_cushions(w, k, members):
 @small_kernel
 def report_collision(p, w, k, facts, facts_float, trace, i, j, first, time):
     """Record a collision; ``first``: the cue ball had struck nothing before this round."""
-    event = record(w, k, trace, time, BALL_COLLISION, i, j)
+    event = record(w, k, trace, time, plain(BALL_COLLISION), i, j)
     if i == CUE_BALL and first:
         store_integer(k, CONTACT_SEEN, 1)
         note_contact(p, w, facts, facts_float, j, event)
@@ -109,7 +109,7 @@ def rebound_and_report(p, w, k, facts, trace, i, cushion, time):
     """A rail collision of ball ``i``, recorded."""
     rebound(p, w, i, cushion)
     restate(p, w, k, 1 << i)
-    event = record(w, k, trace, time, RAIL_COLLISION, i, cushion)
+    event = record(w, k, trace, time, plain(RAIL_COLLISION), i, cushion)
     if load_integer(k, FROZEN + i) - 1 != cushion:
         note_cushion(k, facts, i, event)
 
@@ -133,7 +133,7 @@ def rebound_approaching(p, w, k, facts, trace, members, time):
 def hold_at_cushions(p, w, k, members, also_returning):
     """Hold the members that approach a cushion softly, or whose own acceleration brings them back at once.
 
-    Returns the bit set of them; ``also_returning`` asks for the second kind.
+    Returns the bit set of them; ``also_returning`` (0 or 1) asks for the second kind.
     """
     changed = 0
     rest = members
@@ -143,7 +143,7 @@ def hold_at_cushions(p, w, k, members, also_returning):
         cushion = touched_cushion(p, w, k, i)
         if cushion != NO_CUSHION:
             soft = 0.0 < towards_cushion(w, cushion, VX, VY, i) <= SOFT_CUSHION
-            if soft or (also_returning and returns_at_once(p, w, i, cushion)):
+            if soft or (also_returning != 0 and returns_at_once(p, w, i, cushion)):
                 hold(p, w, i, cushion)
                 changed |= 1 << i
     return changed
@@ -163,7 +163,7 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
             quiet &= ~report_collisions(p, w, k, facts, facts_float, trace, time)
             continue
         rebounding = rebound_approaching(p, w, k, facts, trace, members, time)
-        held = hold_at_cushions(p, w, k, members, False)
+        held = hold_at_cushions(p, w, k, members, plain(0))
         restate(p, w, k, held)
         quiet = quiet & ~rebounding | held
         if rebounding | held:
@@ -173,7 +173,7 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
             restate(p, w, k, changed)
             quiet |= changed
             allowed = energy(p, w, members)
-        changed = part_pressed_pairs(p, w, k, members) | hold_at_cushions(p, w, k, members, True)
+        changed = part_pressed_pairs(p, w, k, members) | hold_at_cushions(p, w, k, members, plain(1))
         restate(p, w, k, changed)
         quiet |= changed
         if changed == 0 or STOP_BELOW * energy(p, w, members) > allowed:
@@ -187,7 +187,7 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
     free_from_cushions(w, k, members)
     rest = quiet
     while rest != 0:
-        record(w, k, trace, time, CONTACT, lowest_bit(rest), -1)
+        record(w, k, trace, time, plain(CONTACT), lowest_bit(rest), plain(NOBODY))
         rest &= rest - 1
     return members
 

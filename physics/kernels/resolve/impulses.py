@@ -5,6 +5,7 @@ from physics.kernels.compiling import (
     load,
     load_integer,
     lowest_bit,
+    plain,
     small_kernel,
     store,
     store_integer,
@@ -66,14 +67,14 @@ def linked_to(w, k, pair):
     return group
 
 
-@small_kernel
+@kernel
 def clear_changes(w):
     """Set the changes of a round to zero."""
     for n in range(CHANGE + VX, CHANGE + WZ + LANES):
         store(w, n, 0.0)
 
 
-@small_kernel
+@kernel
 def apply_changes(w, members, scale):
     """Add the changes of a round, times ``scale``, to the velocities and spins of ``members``."""
     rest = members
@@ -134,9 +135,9 @@ def push_alone(p, w, k, i, j, nx, ny, closing):
     if load(p, P_HISTORICAL) == 0.0:
         collide(p, w, i, j, nx, ny, closing)
     elif load_integer(k, MOTION + i) == STATIONARY:
-        collide_historically(p, w, j, i, -nx, -ny, True)
+        collide_historically(p, w, j, i, -nx, -ny, plain(1))
     else:
-        collide_historically(p, w, i, j, nx, ny, load_integer(k, MOTION + j) == STATIONARY)
+        collide_historically(p, w, i, j, nx, ny, int(load_integer(k, MOTION + j) == STATIONARY))
 
 
 @kernel
