@@ -28,8 +28,12 @@ CACHE_VARIABLE = "POOLIAD_CACHE_DIR"
 @functools.cache
 def digest() -> str:
     """SHA-256 over the sources of the kernels, hex: names this engine in records and caches."""
+    return digest_of(Path(__file__).with_name("kernels"))
+
+
+def digest_of(sources: Path) -> str:
+    """SHA-256 over the names and bytes of the Python files in a folder, hex."""
     total = hashlib.sha256()
-    sources = Path(__file__).with_name("kernels")
     for path in sorted(sources.rglob("*.py")):
         total.update(path.relative_to(sources).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return total.hexdigest()

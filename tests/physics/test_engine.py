@@ -1,0 +1,102 @@
+"""Loading the kernels: where compiled code is kept, and that the Python side agrees with the kernels' layout."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import physics
+from physics import engine, facts, simulation, status
+from physics.events import KINDS, EventKind, Motion
+from physics.kernels import layout, strike
+from physics.parameters import parameters
+
+ONE_SHOT = """
+import physics
+table = physics.Table.olympiad()
+result = physics.simulate(table, physics.rack(table, "eight_ball", seed=1), physics.Shot(8.0, 270.0, 10.0))
+print(result.final.positions.tobytes().hex())
+"""
+
+
+def run_shot(**environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", ONE_SHOT],
+        env=os.environ | {"NUMBA_DISABLE_JIT": "1"} | environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+
+
+def test_sizes_are_those_of_the_layout() -> None:
+    assert (engine.WORK_FLOATS, engine.WORK_INTEGERS) == (layout.W_SIZE, layout.K_SIZE)
+    assert parameters(physics.Table.olympiad()).shape == (1, layout.P_SIZE)
+    assert simulation.TRACE_WIDTH == layout.TRACE_WIDTH
+    assert facts.FACTS_DTYPE.itemsize == 4 * layout.F_INTEGERS + 8 * (layout.F_CUE_Y + 1 - layout.F_DURATION)
+
+
+def test_facts_lie_where_kernels_write_them() -> None:
+    offsets = {name: offset // 4 for name, (_, offset) in facts.FACTS_DTYPE.fields.items()}
+    places = {
+        "status": layout.F_STATUS,
+        "n_events": layout.F_EVENTS,
+        "crossed_head_string": layout.F_CROSSED,
+        "crossed_before_contact": layout.F_CROSSED_BEFORE,
+        "first_contact": layout.F_FIRST,
+        "cushion": layout.F_CUSHION,
+        "cushion_after_contact": layout.F_CUSHION_AFTER,
+        "pocketed": layout.F_POCKETED,
+        "pocket": layout.F_POCKET,
+        "off_table": layout.F_OFF_TABLE,
+        "frozen_to_cushion": layout.F_FROZEN_CUSHION,
+        "frozen_to_cue_ball": layout.F_FROZEN_CUE,
+        "duration": 2 * layout.F_DURATION,
+        "first_contact_cue_ball": 2 * layout.F_CUE_X,
+    }
+    assert offsets == places
+
+
+def test_numbers_of_states_kinds_and_statuses_are_those_of_the_layout() -> None:
+    for motion in Motion:
+        assert getattr(layout, motion.name) == motion
+    for number, kind in enumerate(KINDS):
+        assert getattr(layout, kind.name) == number
+    assert set(KINDS) == set(EventKind)
+    for name in ("CUE_OBSTRUCTED", "TIP_OFF_BALL", "OUT_OF_RANGE", "NO_CUE_BALL"):
+        assert getattr(strike, name) == status.Status[name]
+
+
+def test_a_workspace_is_nobody_elses() -> None:
+    """Kernels address memory by pointer: two live workspaces must not share any (found as heap corruption)."""
+    first, second = engine.workspace(), engine.workspace()
+    assert not np.shares_memory(first[0], second[0])
+    assert not np.shares_memory(first[1], second[1])
+
+
+def test_the_cache_folder_is_named_by_the_kernels(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv(engine.CACHE_VARIABLE, str(tmp_path))
+    folder = engine.cache_folder()
+    assert folder == tmp_path / "pooliad" / f"kernels-{engine.digest()[:16]}"
+    assert folder.is_dir()
+
+
+def test_an_edited_kernel_has_another_digest(tmp_path: Path) -> None:
+    """A stale compiled cache is impossible: the folder's name holds every byte of the kernels."""
+    sources = tmp_path / "kernels"
+    sources.mkdir()
+    (sources / "loop.py").write_text("x = 1\n")
+    before = engine.digest_of(sources)
+    (sources / "loop.py").write_text("x = 2\n")
+    assert engine.digest_of(sources) != before
+
+
+def test_no_home_and_nothing_writable_is_no_error(tmp_path: Path) -> None:
+    unwritable = tmp_path / "file"
+    unwritable.write_text("not a folder")
+    usual = run_shot()
+    lost = run_shot(HOME=str(unwritable), XDG_CACHE_HOME=str(unwritable), POOLIAD_CACHE_DIR=str(unwritable))
+    assert lost.stdout == usual.stdout
