@@ -33,7 +33,7 @@ Shots = list[tuple[Floats, Floats]]
 
 def measure(full: bool) -> Tables:
     """The table behind the picture, and the picture."""
-    shots, truths = chosen(12 if full else 5)
+    shots, truths = chosen(24 if full else 8)
     steps = [10.0**-k for k in range(2, 8 if full else 6)]
     max_steps = [1e-2, 1e-3, 1e-4, 1e-5] if full else [1e-2, 1e-3]
     rows = [row("this engine", None, *ours(shots), truths)]
@@ -41,6 +41,9 @@ def measure(full: bool) -> Tables:
         name = "time stepping, backing up" if back_up else "time stepping"
         rows += [row(name, dt, *stepped(shots, dt, back_up), truths) for dt in steps]
     rows += [row("solve_ivp", step, *integrated(shots, step), truths) for step in max_steps]
+    for tolerance in (1e-3, 1e-12):
+        name = f"solve_ivp, rtol {tolerance:g} alone"
+        rows.append(row(name, None, *integrated(shots, np.inf, tolerance), truths))
     draw(rows)
     return {"error_vs_time": rows}
 
@@ -104,9 +107,9 @@ def starts(shots: Shots) -> list[tuple[Floats, Any]]:
 
     found = []
     for state, stroke in shots:
-        cue = physics.simulate(
-            TABLE, physics.TableState.trusted(state.copy()), physics.Shot(*stroke)
-        ).events[0].states[0]
+        cue = (
+            physics.simulate(TABLE, physics.TableState.trusted(state.copy()), physics.Shot(*stroke)).events[0].states[0]
+        )
         balls = np.zeros((BALLS, 7))
         balls[:, :2] = state[:BALLS]
         balls[0, 2:4], balls[0, 4:7] = cue.velocity, cue.spin
@@ -136,12 +139,12 @@ def stepped(shots: Shots, dt: float, back_up: bool) -> tuple[float, list[Floats]
     return timed(shots, lambda balls, motion: time_stepping.simulate(balls, motion, HORIZON, dt, back_up))
 
 
-def integrated(shots: Shots, max_step: float) -> tuple[float, list[Floats]]:
-    """scipy's solver."""
+def integrated(shots: Shots, max_step: float, tolerance: float = 1e-10) -> tuple[float, list[Floats]]:
+    """scipy's solver with a longest step and a relative tolerance."""
     from benchmarks.opponents import ode
 
     print(f"solve_ivp with max_step {max_step:g} s", flush=True)
-    return timed(shots, lambda balls, motion: ode.simulate(balls, motion, HORIZON, max_step))
+    return timed(shots, lambda balls, motion: ode.simulate(balls, motion, HORIZON, max_step, tolerance))
 
 
 def error(found: Floats, true: Floats) -> float:

@@ -1,4 +1,4 @@
-"""Scenes that break engines, by class: touching racks, clusters, cushions, corners, straight lines, slow contacts, limits.
+"""Scenes that break engines, by class: touching racks, clusters, cushions, corners, lines, slow contacts, limits.
 
 Every class is a function of (table, generator, n) that gives states (n, 16, 2) and shots (n, 5). The same seed gives
 the same scenes.
@@ -66,9 +66,7 @@ def aimed(rng: Rng, states: Floats, v: tuple[float, float] = (0.1, 10.0)) -> Flo
     return shots
 
 
-def attach(
-    table: physics.Table, rng: Rng, states: Floats, ball: int, degrees: Floats, gap: Floats
-) -> None:
+def attach(table: physics.Table, rng: Rng, states: Floats, ball: int, degrees: Floats, gap: Floats) -> None:
     """Put ``ball`` at a gap from a random ball already there, in the given direction, where it fits."""
     n = len(states)
     there = ~np.isnan(states[:, :, 0])

@@ -1,7 +1,7 @@
 """Writes the tables of ``docs/benchmarks.md`` from data lines: ``python -m benchmarks.report``.
 
-A table in the document stands between ``<!-- table NAME TITLE [COLUMN ...] -->`` and ``<!-- end -->``; it is taken from the line
-to cite (the latest full run, else the latest) and says which line that is.
+A table in the document stands between ``<!-- table NAME TITLE [COLUMN ...] -->`` and ``<!-- end -->``; it is taken from
+the line to cite (the latest full run, else the latest) and says which line that is.
 """
 
 import re
@@ -24,8 +24,8 @@ def filled(match: re.Match[str]) -> str:
     start, name, title, columns, end = match.groups()
     line = recording.best_line(name)
     if line is None or title not in line["tables"]:
-        return f"{start}Not measured yet.\n{end}"
-    return f"{start}{as_markdown(line['tables'][title], columns.split())}\n{cited(line)}\n{end}"
+        return f"{start}\nNot measured yet.\n{end}"
+    return f"{start}\n{as_markdown(line['tables'][title], columns.split())}\n{cited(line)}\n{end}"
 
 
 def as_markdown(rows: list[recording.Row], columns: list[str]) -> str:
@@ -42,7 +42,8 @@ def cited(line: dict[str, Any]) -> str:
     size = "full run" if line["full"] else "short run"
     changed = ", with changes not committed" if line["uncommitted"] else ""
     return (
-        f"*`benchmarks/results/{line['benchmark']}.jsonl`, line `{line['id']}`: {size}, commit `{line['commit']}`{changed}, "
+        f"*`benchmarks/results/{line['benchmark']}.jsonl`, line `{line['id']}`: {size}, "
+        f"commit `{line['commit']}`{changed}, "
         f"{machine['processor']}, {machine['cores']} cores, load {line['load_before']} before.*"
     )
 

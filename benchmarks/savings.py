@@ -1,4 +1,4 @@
-"""What a scene does not need and the engine skips: counters of the work done, and the cost with a saving switched off."""
+"""What a scene does not need and the engine skips: work done, counted, and the cost with a saving switched off."""
 
 import importlib
 from collections.abc import Callable, Iterator

@@ -1,4 +1,4 @@
-"""How cost grows: with the balls on the table, with balls that are never near, with threads, with the size of a batch."""
+"""How cost grows: with the balls on the table, with balls never near, with threads, with the size of a batch."""
 
 import os
 import statistics

@@ -72,9 +72,7 @@ def strokes(
 
 def racks(table: physics.Table, n: int, gap: float | None = None) -> Floats:
     """(n, 16, 2): at most 64 different racks, in turn."""
-    few = np.array(
-        [physics.rack(table, "eight_ball", seed=seed, gap=gap).positions for seed in range(min(n, 64))]
-    )
+    few = np.array([physics.rack(table, "eight_ball", seed=seed, gap=gap).positions for seed in range(min(n, 64))])
     return few[np.arange(n) % len(few)]
 
 
@@ -89,9 +87,7 @@ def played(table: physics.Table, states: Floats, shots: Floats) -> tuple[Floats,
     return np.ascontiguousarray(states[rows]), np.ascontiguousarray(shots[rows])
 
 
-def playable_mid_game(
-    table: physics.Table, rng: np.random.Generator, n: int, balls: int
-) -> tuple[Floats, Floats]:
+def playable_mid_game(table: physics.Table, rng: np.random.Generator, n: int, balls: int) -> tuple[Floats, Floats]:
     """``n`` mid-game scenes and strokes, all of them playable."""
     drawn = int(n * 1.1) + 20
     while True:

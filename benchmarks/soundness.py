@@ -1,6 +1,7 @@
 """What is wrong with the end of a shot, or with an instant of it: NaN, escapes, overlaps, no rest."""
 
 import dataclasses
+import itertools
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,7 +91,7 @@ def judge(table: physics.Table, states: Floats, batch: physics.Batch) -> Verdict
 def judge_flight(table: physics.Table, result: physics.Result, instants: int) -> tuple[float, float, bool]:
     """(overlap m, beyond m, all finite) over a shot's events and the middles between them, at most ``instants``."""
     times = [event.time for event in result.events[: instants // 2]]
-    middles = [0.5 * (one + two) for one, two in zip(times, times[1:], strict=False)]
+    middles = [0.5 * (one + two) for one, two in itertools.pairwise(times)]
     snapshots = [result.at(time) for time in (*times, *middles)]
     states = np.array([snapshot.positions for snapshot in snapshots])
     moving = np.array([np.concatenate([s.velocities, s.spins], axis=1) for s in snapshots])

@@ -16,22 +16,28 @@ from typing import Any
 from benchmarks.recording import ROOT
 
 
-def run(prepare: str | None, task: str, *arguments: Any, interpreted: bool = False) -> Any:
+def run(
+    prepare: str | None, task: str, *arguments: Any, interpreted: bool = False, patience: float | None = None
+) -> Any:
     """What ``task(*arguments)`` returns in a new process in which ``prepare(*arguments)`` ran first.
 
     Args:
         prepare, task: "module:function"; ``prepare`` may replace parts of the kernels, or be None.
         interpreted: whether the kernels run as plain Python.
+        patience: s, after which the process is ended.
 
     Raises:
         RuntimeError: the process failed; with what it wrote.
+        subprocess.TimeoutExpired: it took longer than ``patience``.
     """
     with tempfile.TemporaryDirectory() as folder:
         job = Path(folder) / "job"
         job.write_bytes(pickle.dumps((prepare, task, arguments)))
         environment = os.environ | {"POOLIAD_CACHE_DIR": folder, "NUMBA_DISABLE_JIT": "1" if interpreted else "0"}
         command = [sys.executable, "-m", "benchmarks.variants", str(job)]
-        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False, timeout=patience
+        )
         if done.returncode != 0:
             raise RuntimeError(f"{prepare or 'as it is'}, {task}{arguments!r}: {done.stderr[-2000:]}")
         return pickle.loads(job.with_suffix(".result").read_bytes())

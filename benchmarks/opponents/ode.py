@@ -21,17 +21,17 @@ WIDTH = 6
 Event = Callable[[float, Floats], float]
 
 
-def simulate(balls: Floats, motion: Any, horizon: float, max_step: float) -> None:
-    """Carry ``balls`` (n, 7) and ``motion`` (n,) to ``horizon`` (s); both are overwritten."""
+def simulate(balls: Floats, motion: Any, horizon: float, max_step: float, tolerance: float) -> None:
+    """Carry ``balls`` (n, 7) and ``motion`` (n,) to ``horizon`` (s); both are overwritten. ``tolerance``: relative."""
     time = 0.0
     while time < horizon:
         moving = [i for i in range(len(balls)) if motion[i] in (laws.SLIDING, laws.ROLLING)]
         if not moving:
             return
-        time += phase(balls, motion, moving, horizon - time, max_step)
+        time += phase(balls, motion, moving, horizon - time, max_step, tolerance)
 
 
-def phase(balls: Floats, motion: Any, moving: list[int], left: float, max_step: float) -> float:
+def phase(balls: Floats, motion: Any, moving: list[int], left: float, max_step: float, tolerance: float) -> float:
     """Integrate until the first event, act on it, and say how long that took."""
     rates = np.concatenate([rate(balls[i], motion[i]) for i in moving])
     velocity = np.concatenate([np.arange(2) + 2 + WIDTH * n for n in range(len(moving))])
@@ -44,9 +44,8 @@ def phase(balls: Floats, motion: Any, moving: list[int], left: float, max_step: 
 
     found = events(balls, motion, moving)
     start = balls[moving, :WIDTH].ravel()
-    solution = solve_ivp(
-        slope, (0.0, left), start, rtol=1e-10, atol=1e-13, max_step=max_step, events=[e for e, _ in found]
-    )
+    options = {"rtol": tolerance, "atol": 1e-3 * tolerance, "max_step": max_step}
+    solution = solve_ivp(slope, (0.0, left), start, events=[event for event, _ in found], **options)
     elapsed = float(solution.t[-1])
     for n, i in enumerate(moving):
         balls[i, :WIDTH] = solution.y[WIDTH * n : WIDTH * (n + 1), -1]

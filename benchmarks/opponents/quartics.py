@@ -1,4 +1,4 @@
-"""Other solvers of the contact quartic |c + b t + a t^2|^2 = D^2, compiled: the textbook's formulas and companion matrices.
+"""Other solvers of the contact quartic |c + b t + a t^2|^2 = D^2: the textbook's formulas and companion matrices.
 
 Each answers as the engine's own solver does: the earliest t in [0, t_max] at which the balls, approaching, are at the
 distance; NaN if none.
@@ -66,7 +66,7 @@ def ferrari(q4, q3, q2, q1, q0):
     p3 = -p * p / 12.0 - r
     q3 = -p * p * p / 108.0 + p * r / 3.0 - 0.125 * q * q
     u = (-0.5 * q3 + np.sqrt(complex(0.25 * q3 * q3 + p3 * p3 * p3 / 27.0))) ** (1.0 / 3.0)
-    y = -5.0 / 6.0 * p + (u - p3 / (3.0 * u) if u != 0.0 else -complex(q3) ** (1.0 / 3.0))
+    y = -5.0 / 6.0 * p + (u - p3 / (3.0 * u) if u != 0.0 else -(complex(q3) ** (1.0 / 3.0)))
     w = np.sqrt(p + 2.0 * y)
     if w == 0.0:
         nothing = complex(math.nan)

@@ -93,7 +93,7 @@ def resolve_boundary(balls, motion, i, dt, back_up):
 def simulate(balls, motion, horizon, dt, back_up):
     """Carry ``balls`` (n, 7) and ``motion`` (n,) to ``horizon`` (s) in steps of ``dt``; both are overwritten."""
     n = len(balls)
-    for _ in range(int(round(horizon / dt))):
+    for _ in range(round(horizon / dt)):
         for i in range(n):
             motion[i] = advance(balls[i], motion[i], dt)
         for i in range(n):

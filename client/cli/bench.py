@@ -1,6 +1,6 @@
 """`pooliad bench`: measure this machine with the benchmarks of a checkout."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -50,20 +50,17 @@ def _list(catalogue: dict[str, str], as_json: bool) -> None:
         emit(catalogue)
         return
     for name, summary in catalogue.items():
-        say(f"{name:14} {summary}")
+        say(f"{name:18} {summary}")
 
 
-def _run(name: str, full: bool, quiet: bool) -> dict[str, object]:
+def _run(name: str, full: bool, quiet: bool) -> dict[str, Any]:
     """Run one and return its data line; ``quiet`` keeps its progress off standard output."""
     import contextlib
     import importlib
-    import os
+    import io
 
     from benchmarks import recording
 
     measure = importlib.import_module(f"benchmarks.{name}").measure
-    with (
-        open(os.devnull, "w") as nowhere,
-        contextlib.redirect_stdout(nowhere) if quiet else contextlib.nullcontext(),
-    ):
+    with contextlib.redirect_stdout(io.StringIO()) if quiet else contextlib.nullcontext():
         return recording.run(name, measure, full)

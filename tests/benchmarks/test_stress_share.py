@@ -1,4 +1,4 @@
-"""A bounded share of the stress run (issue "exact, fast, never wrong": Stability): a few hundred hostile shots of every class.
+"""A bounded share of the stress run (issue "exact, fast, never wrong": Stability): hundreds of hostile shots a class.
 
 The whole run is ``pooliad bench stress --full``.
 """
