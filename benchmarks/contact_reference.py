@@ -17,10 +17,10 @@ from benchmarks.recording import ROOT, Row, Tables
 
 sys.path.insert(0, str(ROOT / "tests"))
 
-from support.contact.cases import CLASSES, DISTANCE, FLOATS, Cases, make_cases  # noqa: E402
-from support.contact.certify import certainly_right  # noqa: E402
-from support.contact.exact import judge  # noqa: E402
-from support.contact.precise import agrees  # noqa: E402
+from support.contact.cases import CLASSES, DISTANCE, FLOATS, Cases, make_cases
+from support.contact.certify import certainly_right
+from support.contact.exact import judge
+from support.contact.precise import agrees
 
 BATCH = 120_000
 PRECISE_EVERY = 100
@@ -74,6 +74,7 @@ def failure(cases: Cases, i: int, answer: float, verdict: str) -> Row:
 
 
 def verdicts_total(verdicts: Counter[tuple[str, str]]) -> int:
+    """Cases judged so far."""
     return sum(verdicts[kind, "cases"] for kind in CLASSES)
 
 
@@ -84,6 +85,7 @@ def rows(verdicts: Counter[tuple[str, str]]) -> list[Row]:
 
 
 def agreement(precise: Counter[bool | None]) -> Row:
+    """One row."""
     return {
         "cases": precise.total(),
         "agree": precise[True],

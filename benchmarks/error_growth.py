@@ -17,10 +17,10 @@ from benchmarks.recording import ROOT, Row, Tables
 
 sys.path.insert(0, str(ROOT / "tests"))
 
-from support.compare import partners  # noqa: E402
-from support.stability import Told, told  # noqa: E402
-from support.truth.strike import Stroke  # noqa: E402
-from support.worlds import from_kernel, mid_game, open_table, run, stroke_at, world_of  # noqa: E402
+from support.compare import partners
+from support.stability import Told, told
+from support.truth.strike import Stroke
+from support.worlds import from_kernel, mid_game, open_table, run, stroke_at, world_of
 
 SEED = 1665
 BALLS = (4, 8, 16)
@@ -75,6 +75,7 @@ def follow(
 
 
 def worst_so_far(truth: Told) -> list[float]:
+    """For each event the largest change by one ulp of it or any before it (s)."""
     return list(np.maximum.accumulate(truth.sensitivity)) if truth.sensitivity else []
 
 
@@ -87,6 +88,7 @@ def rows(kind: str, samples: list[Sample]) -> list[Row]:
 
 
 def row(kind: str, number: int, samples: list[Sample]) -> Row:
+    """One number of collisions."""
     errors, moved = (np.array([sample[k] for sample in samples]) for k in (1, 2))
     return {
         "shots": kind,

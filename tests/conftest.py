@@ -11,9 +11,7 @@ from hypothesis import HealthCheck, settings
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-settings.register_profile(
-    "pooliad", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
-)
+settings.register_profile("pooliad", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("pooliad")
 
 
@@ -32,7 +30,5 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
     scenes = sys.modules.get("support.scenes")
     if scenes and scenes.TALLY:
         total = scenes.TALLY.total()
-        parts = ", ".join(
-            f"{kind} {count} ({count / total:.0%})" for kind, count in sorted(scenes.TALLY.items())
-        )
+        parts = ", ".join(f"{kind} {count} ({count / total:.0%})" for kind, count in sorted(scenes.TALLY.items()))
         terminalreporter.write_line(f"scenes drawn by the physics properties: {total}: {parts}")

@@ -14,9 +14,7 @@ import pytest
 from support.bits import digest, plays
 from support.require import ROOT, require
 
-GOLDEN = dict(
-    reversed(line.split("  ", 1)) for line in Path(__file__).with_name("shots.txt").read_text().splitlines()
-)
+GOLDEN = dict(reversed(line.split("  ", 1)) for line in Path(__file__).with_name("shots.txt").read_text().splitlines())
 PLAYS = {play[0]: play for play in plays()}
 
 

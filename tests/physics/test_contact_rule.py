@@ -50,7 +50,11 @@ def test_two_balls_struck_at_once_leave_alike():
 def test_one_ball_against_two_by_the_formula():
     """D = sum of plastic changes, lambda = -(v.D)/(D.D) times 2 at e = 1: v' = -v/5 and two at 2 sqrt3/5 v."""
     side = math.sqrt(3) * R
-    launches = {0: Launch((0.5, 1.0 + 1e-9), (0.0, -1.0)), 1: Launch((0.5 - R, 1.0 - side)), 2: Launch((0.5 + R, 1.0 - side))}
+    launches = {
+        0: Launch((0.5, 1.0 + 1e-9), (0.0, -1.0)),
+        1: Launch((0.5 - R, 1.0 - side)),
+        2: Launch((0.5 + R, 1.0 - side)),
+    }
     result = let_go(SMOOTH, launches)
     states = {s.ball: s for e in result.events if e.kind.value == "ball_collision" for s in e.states}
     speed = 1.0

@@ -86,9 +86,10 @@ def test_the_cushion_behind_the_cue_ball(distance):
 
 def test_no_elevation_is_enough_against_a_touching_ball_behind():
     state = physics.TableState.from_positions({0: (0.558, 1.118), 5: (0.558 - 2 * R, 1.118)})
-    assert math.isnan(physics.min_elevation(TABLE, state, 0.0, 0.0, 0.0)) or physics.min_elevation(
-        TABLE, state, 0.0
-    ) > 60.0
+    assert (
+        math.isnan(physics.min_elevation(TABLE, state, 0.0, 0.0, 0.0))
+        or physics.min_elevation(TABLE, state, 0.0) > 60.0
+    )
 
 
 def test_the_middle_of_the_table_needs_no_elevation():

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from support.moving import after, first
+from support.moving import after
 from support.play import OPEN
 
 import physics
@@ -169,7 +169,14 @@ def test_absent_balls_in_a_batch():
 def test_a_row_that_cannot_be_played_is_a_result_and_disturbs_no_other():
     state = physics.TableState.from_positions({0: (0.5, 1.0), 1: (0.3, 1.0)})
     good = [2.0, 90.0, 20.0, 0.0, 0.0]
-    rows = [good, [2.0, 0.0, 0.0, 0.0, 0.0], [11.0, 90.0, 20.0, 0, 0], [2.0, 90.0, 80.0, 0, 0], [2.0, 90, 20, 29, 0], good]
+    rows = [
+        good,
+        [2.0, 0.0, 0.0, 0.0, 0.0],
+        [11.0, 90.0, 20.0, 0, 0],
+        [2.0, 90.0, 80.0, 0, 0],
+        [2.0, 90, 20, 29, 0],
+        good,
+    ]
     batch = physics.simulate_batch(TABLE, state, np.array(rows))
     names = [physics.Status(s).name for s in batch.status]
     assert names == ["AT_REST", "CUE_OBSTRUCTED", "OUT_OF_RANGE", "OUT_OF_RANGE", "TIP_OFF_BALL", "AT_REST"]

@@ -67,7 +67,9 @@ def partners(one: Sequence[Happening], two: Sequence[Happening]) -> list[Happeni
 def lone(events: Sequence[Happening], index: int) -> bool:
     """Is no other event within TIE of this one, and no contact settled?"""
     time = events[index].time
-    return not events[index].settled and all(abs(e.time - time) > TIE for e in events[max(0, index - 1) : index + 2] if e is not events[index])
+    return not events[index].settled and all(
+        abs(e.time - time) > TIE for e in events[max(0, index - 1) : index + 2] if e is not events[index]
+    )
 
 
 def position_error(one: Happening, two: Happening) -> float:

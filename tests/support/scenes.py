@@ -1,4 +1,4 @@
-"""Scenes and strokes for property tests: scattered, touching, frozen and collinear balls, and how often each is drawn."""
+"""Scenes and strokes for property tests: scattered, touching, frozen and collinear balls, and how often each came."""
 
 import math
 from collections import Counter
@@ -61,9 +61,7 @@ anywhere = st.builds(
 )
 inner = st.builds(lambda p, q: (0.2 + p * 0.7, 0.2 + q * 1.8), fractions, fractions)
 compass = st.sampled_from([0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0])
-turns = st.one_of(
-    compass, st.sampled_from([30.0, 60.0, 120.0, 150.0, 210.0, 240.0, 300.0, 330.0]), st.floats(0, 360)
-)
+turns = st.one_of(compass, st.sampled_from([30.0, 60.0, 120.0, 150.0, 210.0, 240.0, 300.0, 330.0]), st.floats(0, 360))
 
 
 @st.composite
@@ -92,9 +90,7 @@ def frozen(draw: st.DrawFn) -> list[Position]:
     for _ in range(draw(st.integers(1, 6))):
         p = draw(st.floats(0.1, 0.9))
         x, y = RADIUS + p * (WIDTH - 2 * RADIUS), RADIUS + p * (LENGTH - 2 * RADIUS)
-        balls.append(
-            draw(st.sampled_from([(RADIUS, y), (WIDTH - RADIUS, y), (x, RADIUS), (x, LENGTH - RADIUS)]))
-        )
+        balls.append(draw(st.sampled_from([(RADIUS, y), (WIDTH - RADIUS, y), (x, RADIUS), (x, LENGTH - RADIUS)])))
         if draw(st.booleans()):
             balls.append(beside(balls[-1], draw(compass)))
     return balls

@@ -22,11 +22,11 @@ class Told:
 
 
 def nudged(stroke: Stroke) -> list[Stroke]:
-    """v and phi one ulp up and down, together and against each other."""
-    up, down = math.inf, -math.inf
+    """v and phi one ulp up and down, together and against each other; near 0 that of a right angle."""
+    turn = math.ulp(max(abs(stroke.phi), 90.0))
     return [
-        replace(stroke, v=math.nextafter(stroke.v, v_to), phi=math.nextafter(stroke.phi, phi_to))
-        for v_to, phi_to in ((up, up), (down, up))
+        replace(stroke, v=math.nextafter(stroke.v, math.inf), phi=stroke.phi + turn),
+        replace(stroke, v=math.nextafter(stroke.v, 0.0), phi=stroke.phi + turn),
     ]
 
 

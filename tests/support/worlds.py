@@ -50,7 +50,9 @@ def stroke_at(rng: np.random.Generator, positions: Mapping[int, Position], v_max
     cue, target = positions[0], positions[int(rng.integers(1, len(positions)))]
     aim = np.degrees(np.arctan2(target[1] - cue[1], target[0] - cue[0]))
     a, b = rng.normal(0.0, 4.0, 2)
-    return Stroke(float(rng.uniform(0.5, v_max)), float(aim + rng.normal(0, 3)), float(rng.uniform(0, 20)), float(a), float(b))
+    return Stroke(
+        float(rng.uniform(0.5, v_max)), float(aim + rng.normal(0, 3)), float(rng.uniform(0, 20)), float(a), float(b)
+    )
 
 
 def from_kernel(result: physics.Result) -> list[Happening]:

@@ -60,9 +60,7 @@ def motions(rng: np.random.Generator, n: int) -> tuple[FLOATS, FLOATS, FLOATS]:
     sliding, rolling = column(state == 0), column(state == 1)
     velocity = np.where(column(state == 2), 0.0, heading * column(speed))
     pull = np.where(sliding, directions(rng, n) * MU_SLIDE, np.where(rolling, heading * MU_ROLL, 0.0))
-    lifetime = np.select(
-        [state == 0, state == 1], [2 * slip / (7 * MU_SLIDE * G), speed / (MU_ROLL * G)], np.inf
-    )
+    lifetime = np.select([state == 0, state == 1], [2 * slip / (7 * MU_SLIDE * G), speed / (MU_ROLL * G)], np.inf)
     return velocity, -0.5 * G * pull, lifetime
 
 
@@ -120,9 +118,7 @@ def touching(rng: np.random.Generator, n: int) -> tuple[FLOATS, FLOATS, FLOATS, 
     b, a, t_max = relative_motions(rng, n)
     normal = directions(rng, n)
     axis = rng.random(n) < 0.25
-    normal[axis] = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])[
-        rng.integers(0, 4, axis.sum())
-    ]
+    normal[axis] = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])[rng.integers(0, 4, axis.sum())]
     return normal * DISTANCE, b, a, t_max, normal
 
 

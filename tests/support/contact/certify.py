@@ -41,18 +41,14 @@ def halves(p: FLOATS) -> FLOATS:
 
 def never_deep(cases: Cases, until: FLOATS) -> BOOLS:
     """Proof, where True, that the gap stays above -SHALLOW over [0, until]."""
-    reach = sum(
-        np.abs(x).max(axis=1) * s for x, s in ((cases.c, 1.0), (cases.b, until), (cases.a, until * until))
-    )
+    reach = sum(np.abs(x).max(axis=1) * s for x, s in ((cases.c, 1.0), (cases.b, until), (cases.a, until * until)))
     level = (DISTANCE - float(SHALLOW)) ** 2 + ROUNDING * reach * reach
     pieces, row = control_points(cases, until), np.arange(len(cases))
     undecided = np.zeros(len(cases), dtype=bool)
     for _ in range(MAX_DEPTH):
         open_pieces = least_squares(pieces) <= level[row]
         pieces, row = pieces[open_pieces], row[open_pieces]
-        ends = (
-            np.einsum("nik,nik->ni", pieces[:, ::2], pieces[:, ::2]).min(axis=1) if len(row) else np.empty(0)
-        )
+        ends = np.einsum("nik,nik->ni", pieces[:, ::2], pieces[:, ::2]).min(axis=1) if len(row) else np.empty(0)
         undecided[row[ends <= level[row]]] = True
         keep = ~undecided[row]
         pieces, row = halves(pieces[keep]), np.tile(row[keep], 2)

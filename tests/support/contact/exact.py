@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import pairwise
 from math import gcd, lcm
 
 Polynomial = list[int]
@@ -90,7 +91,7 @@ def sturm_chain(p: Polynomial) -> list[Polynomial]:
 
 def variations(chain: list[Polynomial], t: Fraction) -> int:
     signs = [s for s in (sign_at(p, t) for p in chain) if s]
-    return sum(s != u for s, u in zip(signs, signs[1:], strict=False))
+    return sum(s != u for s, u in pairwise(signs))
 
 
 def isolate(chain: list[Polynomial], low: Fraction, high: Fraction) -> list[tuple[Fraction, Fraction]]:

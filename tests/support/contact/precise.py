@@ -45,7 +45,7 @@ def agrees(c: Vector, b: Vector, a: Vector, t_max: float, answer: float) -> bool
         if fall_through(c, b, a, t_max, DISTANCE - mpf(SHALLOW)) is None:
             starts_near = gap_quartic(c, b, a, DISTANCE + mpf(SHALLOW))[0] <= 0
             comes_near = starts_near or fall_through(c, b, a, t_max, DISTANCE + mpf(SHALLOW)) is not None
-            return None if comes_near else answer != answer
+            return None if comes_near else bool(answer != answer)
         if answer != answer:
             return False
         first = fall_through(c, b, a, t_max, DISTANCE + mpf(CLOSE))

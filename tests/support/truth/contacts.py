@@ -31,8 +31,15 @@ class Cluster:
     walls: list[tuple[Ball, Line]]
     acted: list[tuple[str, int, int]] = field(default_factory=list)
 
+    def __post_init__(self) -> None:
+        self.classified = {ball.number: movement(ball) for ball in self.balls}
+
     def note(self, kind: str, first: int, second: int) -> None:
         self.acted.append((kind, first, second))
+
+
+def movement(ball: Ball) -> tuple[mpc, mpc, mpf]:
+    return ball.velocity, ball.w_xy, ball.w_z
 
 
 def touching(world: World, one: Ball, two: Ball) -> bool:
@@ -104,7 +111,7 @@ def wall_round(cluster: Cluster, acting: Sequence[tuple[Ball, Line]]) -> None:
 
 
 def collide(cluster: Cluster) -> None:
-    """Steps 1 and 2 until no pair approaches faster than v_creep and no ball a cushion; the remainder is set to 0."""
+    """Steps 1 and 2 until no pair approaches faster than v_creep and no ball a cushion."""
     while True:
         acting = [pair for pair in cluster.pairs if approach(pair) > cluster.world.v_creep]
         hits = [(b, line) for b, line in cluster.walls if dot(b.velocity, line.inward) < 0]
@@ -114,10 +121,11 @@ def collide(cluster: Cluster) -> None:
             wall_round(cluster, hits)
         else:
             break
-    remove_remainder(cluster)
+    reclassify(cluster)
 
 
 def remove_remainder(cluster: Cluster) -> None:
+    """Pairs that still approach, by at most v_creep, get their mean normal speed."""
     for (one, two), rest in [(pair, approach(pair)) for pair in cluster.pairs]:
         if rest > 0:
             n = normal(one, two)
@@ -127,14 +135,17 @@ def remove_remainder(cluster: Cluster) -> None:
 
 
 def reclassify(cluster: Cluster) -> None:
+    """New motion states for the balls whose velocity or spin changed; others end theirs by events of their own."""
     for ball in cluster.balls:
-        classify(cluster.world, ball)
+        if cluster.classified[ball.number] != movement(ball):
+            classify(cluster.world, ball)
+            cluster.classified[ball.number] = movement(ball)
 
 
 def returning_to_wall(world: World, ball: Ball, line: Line) -> bool:
     """Its own acceleration would bring the ball back to the cushion within tau."""
     opening, inward = dot(ball.velocity, line.inward), dot(acceleration(world, ball), line.inward)
-    return inward < 0 and opening < -inward * world.tau / 2
+    return inward < 0 and opening < -inward * world.rest_time / 2
 
 
 def closing_acceleration(world: World, pair: Pair) -> mpf:
@@ -154,8 +165,8 @@ def part_pressed(cluster: Cluster) -> bool:
     parted = []
     for pair in cluster.pairs:
         closing, opening = closing_acceleration(world, pair), -approach(pair)
-        wanted = max(closing * world.tau / 2, 2 * world.v_creep)
-        meets_again = closing > MIN_CLOSING and opening < closing * world.tau / 2
+        wanted = max(closing * world.rest_time / 2, 2 * world.v_creep)
+        meets_again = closing > MIN_CLOSING and opening < closing * world.rest_time / 2
         if meets_again and opening < wanted - PARTING_SLACK:
             parted.append((pair, wanted - opening))
     for ball, line in pressed:
@@ -169,23 +180,27 @@ def part_pressed(cluster: Cluster) -> bool:
     return bool(pressed or parted)
 
 
+def total_energy(cluster: Cluster) -> mpf:
+    return sum(energy(cluster.world, ball) for ball in cluster.balls)
+
+
 def resolve(cluster: Cluster) -> None:
     """The whole rule: collide, then part what presses, the energy never above that before the parting."""
-    world = cluster.world
     collide(cluster)
+    remove_remainder(cluster)
     reclassify(cluster)
-    before = sum(energy(world, ball) for ball in cluster.balls)
-    parted = False
+    before = total_energy(cluster)
     while part_pressed(cluster):
-        parted = True
-        collide(cluster)
         reclassify(cluster)
-    if parted:
-        limit_energy(cluster, before)
+        if total_energy(cluster) > 2 * before:
+            break
+        collide(cluster)
+    limit_energy(cluster, before)
 
 
 def limit_energy(cluster: Cluster, before: mpf) -> None:
-    after = sum(energy(cluster.world, ball) for ball in cluster.balls)
+    """All velocities and spins times one factor; a cluster that would lose half its energy stops."""
+    after = total_energy(cluster)
     if after <= before:
         return
     factor = mpf(0) if after > 2 * before else (before / after) ** mpf("0.5")

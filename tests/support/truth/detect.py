@@ -6,6 +6,7 @@ everything else is decided in full precision.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from mpmath import mp, mpc, mpf
 from support.truth.model import MOVING, Ball, Motion, World, dot
@@ -57,7 +58,7 @@ def stays_clear(points: Sequence[float], depth: int = 6) -> bool:
     while row:
         left.append(row[0])
         right.append(row[-1])
-        row = [(p + q) / 2 for p, q in zip(row, row[1:], strict=False)]
+        row = [(p + q) / 2 for p, q in pairwise(row)]
     return stays_clear(left, depth - 1) and stays_clear(right[::-1], depth - 1)
 
 

@@ -1,7 +1,7 @@
 """What the truth engine moves: balls in the plane as complex numbers, and the numbers of the table.
 
-A plane vector ``(x, y)`` is the complex number ``x + iy``: turning it left by 90 degrees (``k x v``) is a multiplication
-by ``i``. Everything is an mpmath number; doubles that come in are taken as exact. Nothing of ``physics`` is used.
+A plane vector ``(x, y)`` is the complex number ``x + iy``: turning it left by 90 degrees (``k x v``) multiplies
+it by ``i``. Everything is an mpmath number; doubles that come in are taken as exact. Nothing of ``physics`` is used.
 """
 
 from dataclasses import dataclass, field, fields
@@ -69,6 +69,11 @@ class World:
         for name, value in vars(self).items():
             if isinstance(value, float):
                 object.__setattr__(self, name, mpf(value))
+
+    @property
+    def rest_time(self) -> mpf:
+        """tau, longer on slower cloths (s)."""
+        return self.tau * max(mpf(1), mpf(0.2) / self.mu_slide, mpf(0.015) / self.mu_roll)
 
     @property
     def slip_zero(self) -> mpf:

@@ -55,8 +55,6 @@ def touched_cushions(world: World, sides: list[Line], ball: Ball) -> Iterator[Li
     """Cushions within ``touch`` of the ball's centre, mouths excepted."""
     for line in sides:
         if line.cushion >= 0 and line.height(ball.position) <= world.touch:
-            along_other = all(
-                other.height(ball.position) >= -world.touch for other in sides if other.pocket >= 0
-            )
+            along_other = all(other.height(ball.position) >= -world.touch for other in sides if other.pocket >= 0)
             if along_other and not in_side_mouth(world, line, ball.position):
                 yield line
