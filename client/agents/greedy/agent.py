@@ -11,6 +11,7 @@ from client.agents.greedy import places
 from client.agents.greedy.candidates import Candidates
 from client.agents.greedy.judge import Judge
 from client.agents.greedy.plan import Plan
+from client.agents.greedy.worth import worth_of_passing
 from client.geometry import Point
 from physics import Table
 from referee import Action, Call, CueBallArea, Decision, EightBall, Game, Phase
@@ -18,14 +19,17 @@ from referee.wire import View
 
 USUAL_NOISE = 1.0
 """The level to reckon with when the game does not tell."""
-POTS, PLACES = 8, 16
+POTS, PLACES = 8, 8
 """How many of the easiest pots, and of the most promising places of a cue ball in hand, are considered."""
 SCREENING, FINALISTS, VARIANTS = 4, 6, 60
 """All plans are judged by a few noisy variants, the best by many: 60 tell 0.6 of success from 0.75."""
-CONTENT = 0.45
-"""A pot worth this much is played without looking at other directions: about as good as one try in three."""
+CONTENT = 0.1
+"""A pot worth this much more than a safety is played without looking at other directions."""
 BREAKING, RECEIVING = 0.5, 0.45
 """What a new rack is worth to the player who breaks it, and to the other."""
+
+Judged = tuple[Plan, float]
+"""A plan and what it is worth."""
 
 
 class GreedyAgent(Agent):
@@ -80,21 +84,34 @@ class _Turn:
     def best_stroke(self) -> tuple[Action, float]:
         """The stroke of the greatest expected worth, and that worth."""
         if self._game.phase is Phase.BREAK:
-            return self._best_of(self._break_plans())
+            plan, value = self._best_of(self._break_plans())
+            return plan.action, value
+        plan, value = self._refined(*self._best_called())
+        return plan.action, value
+
+    def _best_called(self) -> Judged:
+        """The best of the open pots, and of strokes in all directions when no pot is good enough."""
         plans = self._pot_plans()
         best = self._best_of(plans) if plans else None
-        if best is not None and best[1] >= CONTENT:
+        enough = worth_of_passing(self._game, self._game.turn) + CONTENT
+        if best is not None and best[1] >= enough:
             return best
-        others = [self._best_of(self._other_plans()), *([best] if best else [])]
-        return max(others, key=lambda judged: judged[1])
+        other = self._best_of(self._other_plans())
+        return other if best is None or other[1] > best[1] else best
 
-    def _best_of(self, plans: Sequence[Plan]) -> tuple[Action, float]:
+    def _refined(self, plan: Plan, value: float) -> Judged:
+        """A plan a little faster or slower, higher or lower, to the left or right, if that is better."""
+        near = self._candidates.near(plan)
+        better = self._best_of(near) if near else (plan, value)
+        return better if better[1] > value else (plan, value)
+
+    def _best_of(self, plans: Sequence[Plan]) -> Judged:
         """The best of the plans under noise: all are screened, the finalists judged with care."""
         rough = self._judge.worths(plans, SCREENING)
         finalists = [plans[index] for index in np.argsort(-rough, kind="stable")[:FINALISTS]]
         worths = self._judge.worths(finalists, VARIANTS)
         best = int(np.argmax(worths))
-        return finalists[best].action, float(worths[best])
+        return finalists[best], float(worths[best])
 
     def _pot_plans(self) -> list[Plan]:
         """Open pots from where the cue ball lies, or from where it could be put."""

@@ -17,6 +17,10 @@ POT_SPEEDS = (0.8, 1.4, 2.4, 4.0)
 """m/s of the cue: from just enough for a short pot to enough for the length of the table with a thin cut."""
 TIPS = (0.0, 7.0, -7.0)
 """Tip heights in mm: plain, follow and draw; they steer the cue ball clear of pockets."""
+NEAR_SPEEDS = (0.8, 1.0, 1.25)
+NEAR_TIPS = (-4.0, 0.0, 4.0)
+NEAR_DIRECTIONS = (-0.2, 0.0, 0.2)
+"""Factors of the speed, millimetres and degrees around a good plan: half the steps of the first look."""
 FAN_SPEEDS = (1.0, 2.0, 4.0)
 FAN_DIRECTIONS = 72
 """Every 5 degrees: a ball a metre away fills 6.5 degrees, so the fan finds most contacts."""
@@ -51,6 +55,19 @@ class Candidates:
         speeds = tuple(share * self._table.v_max for share in BREAK_SPEEDS)
         aims = (azimuth(place, (x + 1e-3 * offset, y)) for offset in BREAK_OFFSETS)
         return [plan for phi in aims for plan in self._aimed(before, place, phi, speeds, None)]
+
+    def near(self, plan: Plan) -> list[Plan]:
+        """The plan's neighbours in speed, tip height and direction."""
+        shot, call, place = plan.action.shot, plan.action.call, plan.action.cue_ball
+        if shot is None:
+            return []
+        speeds = tuple(min(self._table.v_max, factor * shot.v) for factor in NEAR_SPEEDS)
+        return [
+            each
+            for turn in NEAR_DIRECTIONS
+            for b in NEAR_TIPS
+            for each in self._aimed(plan.before, place, shot.phi + turn, speeds, call, shot.b + b)
+        ]
 
     def _pot(self, before: TableState, place: Point | None, pot: Pot) -> list[Plan]:
         """One pot at several speeds and tip heights."""

@@ -1,10 +1,11 @@
 """What the situation after a stroke is worth to the one who played it: 1 is a won game, 0 a lost one.
 
-Between those two it is a scale of five steps, by who shoots next and with how much freedom. It knows
-nothing about where the balls lie; that is what makes the agent greedy.
+Between those two it is who shoots next and with how much freedom, and who has fewer balls left. It knows nothing
+about where the balls lie; that is what makes the agent greedy.
 """
 
 from referee import Game, Phase
+from referee.game import remaining
 
 WON, LOST, DRAWN = 1.0, 0.0, 0.5
 AT_THE_TABLE = 0.7
@@ -14,6 +15,8 @@ IN_DECISION = {True: 0.55, False: 0.45}
 OPPONENT_SHOOTS = 0.35
 OPPONENT_IN_HAND = 0.15
 """The opponent shoots, from where the cue ball lies or from where it suits best."""
+BALL_AHEAD = 0.03
+"""What each ball that the opponent has left beyond one's own adds: far ahead, nobody risks the 8 for little."""
 
 
 def worth(game: Game, seat: int) -> float:
@@ -23,6 +26,21 @@ def worth(game: Game, seat: int) -> float:
         return DRAWN if winner is None else WON if winner == seat else LOST
     if game.phase is not Phase.PLAY:
         return IN_DECISION[game.turn == seat]
+    return _initiative(game, seat) + BALL_AHEAD * _ahead(game, seat)
+
+
+def worth_of_passing(game: Game, seat: int) -> float:
+    """The worth of a fair stroke after which the opponent shoots: what a plain safety brings."""
+    return OPPONENT_SHOOTS + BALL_AHEAD * _ahead(game, seat)
+
+
+def _initiative(game: Game, seat: int) -> float:
+    """Who shoots next, and with how much freedom."""
     if game.turn == seat:
         return AT_THE_TABLE
     return OPPONENT_SHOOTS if game.cue_ball_in_hand is None else OPPONENT_IN_HAND
+
+
+def _ahead(game: Game, seat: int) -> int:
+    """How many balls more than `seat` the opponent has left; 0 on an open table."""
+    return len(remaining(game, 1 - seat)) - len(remaining(game, seat))
