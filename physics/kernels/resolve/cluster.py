@@ -154,7 +154,8 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
     """``settle`` in full, round by round."""
     members = gather(p, w, k, facts, 1 << i, time)
     quiet = 0  # balls changed since their last event
-    allowed = -1.0  # energy before step 3
+    allowed = -1.0  # energy before anything was held or parted
+    evened = False
     settled = False
     for _ in range(ROUND_LIMIT):
         pushed = push_pairs(p, w, k, members)
@@ -163,15 +164,20 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
             quiet &= ~report_collisions(p, w, k, facts, facts_float, trace, time)
             continue
         rebounding = rebound_approaching(p, w, k, facts, trace, members, time)
+        before = energy(p, w, members)
         held = hold_at_cushions(p, w, k, members, plain(0))
         restate(p, w, k, held)
         quiet = quiet & ~rebounding | held
+        if held != 0 and allowed < 0.0:
+            allowed = before
         if rebounding | held:
             continue
-        if allowed < 0.0:
+        if not evened:
+            evened = True
             changed = settle_slow_pairs(w, k, members)
             restate(p, w, k, changed)
             quiet |= changed
+        if allowed < 0.0:
             allowed = energy(p, w, members)
         changed = part_pressed_pairs(p, w, k, members) | hold_at_cushions(p, w, k, members, plain(1))
         restate(p, w, k, changed)
