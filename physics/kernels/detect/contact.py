@@ -52,7 +52,8 @@ def first_root(cx, cy, bx, by, ax, ay, t_max, limit, squared):
         f = dx * dx + dy * dy - squared
         slope = 2.0 * (dx * (bx + 2.0 * ax * t) + dy * (by + 2.0 * ay * t))
         if f <= ROOT_RESIDUAL and step > 0:
-            return t
+            # Past the root only by rounding: a first step that ends at a graze keeps half the digits.
+            return t - f / slope if f < -ROOT_RESIDUAL and slope < 0.0 else t
         f = max(f, 0.0)
         h = first_step(f, slope, least_curvature(c0, c1, c2, t, min(t + reach, t_max)))
         if h > reach:
