@@ -48,7 +48,7 @@ from physics.kernels.resolve.cluster import FAILED, NOBODY, restate, settle
 from physics.kernels.resolve.touching import NO_CUSHION, bring, touched_cushion
 from physics.kernels.start import note_frozen, note_start, place, put_away, reset, restore
 from physics.kernels.strike import MILLIMETRE, strike, unplayable
-from physics.kernels.tolerances import EVENT_LIMIT
+from physics.kernels.tolerances import EVENT_LIMIT, STEP_LIMIT
 
 AT_REST, TOO_MANY_EVENTS = 0, 5
 """Numbers of physics.Status."""
@@ -123,7 +123,9 @@ def run(p, w, k, facts, facts_float, trace, alive, changed):
     """Go from event to event, after the balls in ``changed`` were set in motion at time 0; (status, duration)."""
     now = 0.0
     predict_all(p, w, k, alive, changed, now)
-    while load_integer(k, N_EVENTS) < EVENT_LIMIT:
+    for _ in range(STEP_LIMIT):
+        if load_integer(k, N_EVENTS) >= EVENT_LIMIT:
+            break
         i, time = earliest(w, k)
         if time == math.inf:
             return AT_REST, now

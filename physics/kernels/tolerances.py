@@ -7,6 +7,10 @@ TOUCH = 1e-12
 """m. Two balls, or a ball and a cushion, closer than this touch. A hundredth of an atom: a thousand times the
 rounding of a position (1e-15 m), so simultaneous contacts are seen as such; larger would join separate ones."""
 
+DEEPER = 0.125 * TOUCH
+"""m. Balls that touch and neither approach nor open are next looked for this much deeper. Far above the rounding of a
+position (1e-15 m), and small enough that several in a row stay within TOUCH."""
+
 SLOW_APPROACH = 1e-9
 """m/s. Touching balls that approach no faster are left alone (30 micrometres an hour). Smaller, and the rounding of
 velocities (1e-15 m/s) starts collisions; larger, and resting balls visibly sink into each other."""
@@ -21,6 +25,9 @@ a shot that is 5e-13 m."""
 
 EVENT_LIMIT = 1_000_000
 """Events after which a shot ends with ``Status.EVENT_LIMIT``; a break has about a hundred."""
+
+STEP_LIMIT = 4 * EVENT_LIMIT
+"""Steps of the event loop after which a shot ends with ``Status.EVENT_LIMIT``: events, and looks again."""
 
 ROUND_LIMIT = 10_000
 """Rounds of the contact rule at one instant after which a shot ends with ``Status.EVENT_LIMIT``."""

@@ -8,7 +8,7 @@ least value on an interval is exact and cheap. (docs/physics.md, eq. 22-25.)
 import math
 
 from physics.kernels.compiling import kernel, small_kernel
-from physics.kernels.tolerances import ROOT_RESIDUAL, SLOW_APPROACH, SOLVER_STEPS, TOUCH
+from physics.kernels.tolerances import DEEPER, ROOT_RESIDUAL, SLOW_APPROACH, SOLVER_STEPS, TOUCH
 
 
 @small_kernel
@@ -78,12 +78,12 @@ def first_root(cx, cy, bx, by, ax, ay, t_max, limit, squared):
 def settled_root(cx, cy, bx, by, ax, ay, t_max, limit, diameter):
     """``first_root`` for balls that touch at the start without approaching or opening.
 
-    f(0) = f'(0) = 0 up to rounding would be "time 0 again" for ever. So the contact looked for is half of TOUCH
-    deeper than they are; from there it is walked back to where the balls, having parted, meet.
+    f(0) = f'(0) = 0 up to rounding would be "time 0 again" for ever. So the contact looked for is DEEPER than they are;
+    from there it is walked back to where the balls, having parted, meet.
     """
     distance = math.sqrt(cx * cx + cy * cy)
     met = min(distance, diameter)
-    deeper = met - 0.5 * TOUCH
+    deeper = met - DEEPER
     t = first_root(cx, cy, bx, by, ax, ay, t_max, limit, deeper * deeper)
     if t != t:
         return t
