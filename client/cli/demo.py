@@ -27,8 +27,10 @@ def demo(
 
     from client.cli.players import load_player
     from client.cli.processes import children
+    from client.cli.serve import require_server
     from client.cli.stage import Stage
 
+    require_server()
     for name in agents:
         load_player(name)
     seed = secrets.randbelow(2**32) if seed is None else seed

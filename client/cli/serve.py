@@ -11,13 +11,18 @@ NEEDED = ("fastapi", "uvicorn", "sqlalchemy", "alembic")
 """What the `server` extra brings."""
 
 
-def server_command(host: str, port: int, database: str) -> list[str]:
-    """The command line that runs the server as a program; exits with what to install when it cannot run."""
-    import sys
-
+def require_server() -> None:
+    """Leave with what to install when the server's libraries are not there."""
     missing = [name for name in NEEDED if find_spec(name) is None]
     if missing:
         fail(f"the server needs {', '.join(missing)}; install it with: pip install 'pooliad[server]'")
+
+
+def server_command(host: str, port: int, database: str) -> list[str]:
+    """The command line that runs the server as a program; leaves with what to install when it cannot run."""
+    import sys
+
+    require_server()
     # -P: a folder called server where the user stands is not ours
     return [sys.executable, "-P", "-m", "server", "--host", host, "--port", str(port), "--database", database]
 

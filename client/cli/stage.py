@@ -132,4 +132,5 @@ def _warm_up(tell: Callable[[str], None]) -> None:
     state = rack(table, "eight_ball", seed=0)
     shot = Shot(1.0, 270.0, min_elevation(table, state, 270.0))
     simulate(table, state, shot)
-    simulate_batch(table, state, np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b]]))
+    row = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b]])
+    simulate_batch(table, state.positions[None].copy(), row)  # as greedy calls it: compiled for its own kind of array
