@@ -5,6 +5,7 @@ Each round acts from one common set of velocities; nothing depends on ball numbe
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import compress
 
 from mpmath import mpc, mpf
 from support.truth.laws import apply_friction, bounce, normal, settle, tangential_impulse
@@ -32,6 +33,7 @@ class Cluster:
     acted: list[tuple[str, int, int]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
+        self.allowed: mpf | None = None
         self.classified = {ball.number: movement(ball) for ball in self.balls}
 
     def note(self, kind: str, first: int, second: int) -> None:
@@ -101,20 +103,22 @@ def ball_round(cluster: Cluster, acting: Sequence[Pair]) -> None:
 
 def wall_round(cluster: Cluster, acting: Sequence[tuple[Ball, Line]]) -> None:
     """Step 2: the cushion law above v_slow, settling below."""
-    for ball, line in acting:
-        if -dot(ball.velocity, line.inward) > cluster.world.v_slow:
-            bounce(cluster.world, ball, line)
-            cluster.note("rail_collision", ball.number, line.cushion)
-        else:
-            settle(ball, line)
-            cluster.note("settling", ball.number, line.cushion)
+    fast = [-dot(ball.velocity, line.inward) > cluster.world.v_slow for ball, line in acting]
+    for ball, line in compress(acting, fast):
+        bounce(cluster.world, ball, line)
+        cluster.note("rail_collision", ball.number, line.cushion)
+    if not all(fast):
+        limit_from_now(cluster)
+    for ball, line in compress(acting, (not f for f in fast)):
+        settle(ball, line)
+        cluster.note("settling", ball.number, line.cushion)
 
 
 def collide(cluster: Cluster) -> None:
-    """Steps 1 and 2 until no pair approaches faster than v_creep and no ball a cushion."""
+    """Steps 1 and 2 until nothing approaches faster than v_creep."""
     while True:
         acting = [pair for pair in cluster.pairs if approach(pair) > cluster.world.v_creep]
-        hits = [(b, line) for b, line in cluster.walls if dot(b.velocity, line.inward) < 0]
+        hits = [(b, line) for b, line in cluster.walls if -dot(b.velocity, line.inward) > cluster.world.v_creep]
         if acting:
             ball_round(cluster, acting)
         elif hits:
@@ -125,13 +129,15 @@ def collide(cluster: Cluster) -> None:
 
 
 def remove_remainder(cluster: Cluster) -> None:
-    """Pairs that still approach, by at most v_creep, get their mean normal speed."""
+    """What still approaches, by at most v_creep: pairs get their mean normal speed, at cushions it is taken."""
     for (one, two), rest in [(pair, approach(pair)) for pair in cluster.pairs]:
         if rest > 0:
             n = normal(one, two)
             one.velocity -= rest / 2 * n
             two.velocity += rest / 2 * n
             cluster.note("contact", one.number, two.number)
+    for ball, line in cluster.walls:
+        ball.velocity -= min(dot(ball.velocity, line.inward), mpf(0)) * line.inward
 
 
 def reclassify(cluster: Cluster) -> None:
@@ -189,18 +195,24 @@ def resolve(cluster: Cluster) -> None:
     collide(cluster)
     remove_remainder(cluster)
     reclassify(cluster)
-    before = total_energy(cluster)
+    limit_from_now(cluster)
     while part_pressed(cluster):
         reclassify(cluster)
-        if total_energy(cluster) > 2 * before:
+        if total_energy(cluster) > 2 * cluster.allowed:
             break
         collide(cluster)
-    limit_energy(cluster, before)
+    limit_energy(cluster)
 
 
-def limit_energy(cluster: Cluster, before: mpf) -> None:
+def limit_from_now(cluster: Cluster) -> None:
+    """The energy before the first time a ball is held or a pair parted is the most the cluster may keep."""
+    if cluster.allowed is None:
+        cluster.allowed = total_energy(cluster)
+
+
+def limit_energy(cluster: Cluster) -> None:
     """All velocities and spins times one factor; a cluster that would lose half its energy stops."""
-    after = total_energy(cluster)
+    before, after = cluster.allowed, total_energy(cluster)
     if after <= before:
         return
     factor = mpf(0) if after > 2 * before else (before / after) ** mpf("0.5")
