@@ -84,6 +84,22 @@ class LiveGame:
         """Nanoseconds that the running turn has taken and that are not charged yet."""
         return max(0, now - int(self.row.clock_from)) if self.is_running else 0
 
+    def time_of_action(self, arrived: int) -> int:
+        """Nanoseconds that an action complete at `arrived` is charged.
+
+        On a turn that was never fetched they count from the moment it was there to be fetched: whoever acts knows
+        the view from elsewhere, and the wait for the fetch is not free time to think.
+        """
+        return max(0, arrived - self._thinking_from)
+
+    def is_out_of_time(self, arrived: int) -> bool:
+        """Whether an action complete at `arrived` is too late; exactly zero left is."""
+        return self.time_of_action(arrived) >= self.clocks.remaining_ns(self.game.turn)
+
+    @property
+    def _thinking_from(self) -> int:
+        return int(self.row.clock_from if self.row.delivered else self.row.available_at)
+
     def clock_views(self, now: int) -> tuple[ClockView, ClockView]:
         """Both clocks as they stand now."""
         turn, elapsed = self.game.turn, self.elapsed(now)

@@ -48,7 +48,7 @@ def _act(context: Context, game_id: str, command: Command, read_action: Callable
         if stored := recall(writing.connection, command):
             return stored
         _require_turn(writing.connection, live, seat, command)
-        answer = _stored(writing, live, stroke, live.elapsed(command.arrived))
+        answer = _stored(writing, live, stroke, live.time_of_action(command.arrived))
         keep(writing.connection, command, answer)
     context.wakeups.notify(live.agents)
     return answer
@@ -69,7 +69,7 @@ def _require_turn(connection: Connection, live: LiveGame, seat: int, command: Co
         )
     if live.game.turn != seat:
         raise errors.NotYourTurn(f"it is the turn of seat {live.game.turn}, {live.players[live.game.turn]}")
-    if command.arrived >= live.row.deadline:
+    if live.is_out_of_time(command.arrived):
         raise errors.OutOfTime("your time had run out when the request was complete")
 
 

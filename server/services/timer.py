@@ -54,7 +54,10 @@ def flag(context: Context) -> None:
     with context.database.reading() as connection:
         late = connection.scalars(due).all()
     for game_id in late:
-        _flag(context, game_id, now)
+        try:
+            _flag(context, game_id, now)
+        except Exception:
+            log.exception("game %s could not be ended; the timer goes on with the others", game_id)
 
 
 def _flag(context: Context, game_id: str, now: int) -> None:

@@ -5,8 +5,9 @@ import json
 import pytest
 
 from referee.wire import AgentRequest
+from server.errors import OutOfTime
 from server.security.callers import ORGANISER, Caller
-from server.services import agents, matches, turns
+from server.services import agents, matches, strokes, timer, turns
 from server.services.commands import Command
 from server.services.context import Context
 from server.services.timer import flag
@@ -36,16 +37,34 @@ def context(tmp_path):
 
 
 @pytest.fixture
-def turn(context):
-    """A game of 10 seconds whose first turn has just been delivered: its id and its mover's."""
-    registered = [agents.register(context, AgentRequest(name=name)) for name in ("ann", "bob")]
+def unfetched(context):
+    """A game of 10 seconds whose first turn nobody has fetched: its id and its mover's."""
+    return new_game(context, "ann", "bob")
+
+
+@pytest.fixture
+def turn(context, unfetched):
+    """The same game once its first turn has been delivered."""
+    turns.next_message(context, unfetched[1])
+    return unfetched
+
+
+def new_game(context, *names):
+    registered = [agents.register(context, AgentRequest(name=name)) for name in names]
     ids = [json.loads(answer.body)["agent"]["id"] for answer in registered]
     body = json.dumps({"agents": ids, "clock": {"seconds": 10.0}}).encode()
-    command = Command(Caller(ORGANISER, "t"), "/v1/matches", "k", None, "application/json", body, context.time.now())
+    command = Command(
+        Caller(ORGANISER, "t"), "/v1/matches", names[0], None, "application/json", body, context.time.now()
+    )
     match = json.loads(matches.create(context, command).body)
-    mover = ids[match["first_breaker"]]
-    message = turns.next_message(context, mover)
-    return json.loads(message)["game"], mover
+    return match["played"][0]["id"], ids[match["first_breaker"]]
+
+
+def concede(context, game, mover):
+    """The mover's action, and the time that it leaves the mover."""
+    command = Command(Caller(mover, "t"), "/concede", "c", '"1"', None, b"", context.time.now())
+    answer = json.loads(strokes.concede(context, game, command).body)
+    return answer["clocks"][answer["stroke"]["seat"]]["seconds_left"]
 
 
 def ended(context, turn):
@@ -81,3 +100,41 @@ def test_redelivery_never_restarts_the_clock(context, turn):
     assert not ended(context, turn)
     context.time.value += 4 * SECOND
     assert ended(context, turn)
+
+
+def test_a_turn_that_is_fetched_late_starts_its_clock_then(context, unfetched):
+    context.time.value += 4 * SECOND
+    turns.next_message(context, unfetched[1])
+    context.time.value += 1 * SECOND
+    assert concede(context, *unfetched) == 9.0
+
+
+def test_who_plays_without_fetching_the_turn_pays_from_when_it_was_there(context, unfetched):
+    """The view can be read elsewhere: the wait for the fetch is no free time to think."""
+    context.time.value += 4 * SECOND
+    assert concede(context, *unfetched) == 6.0
+
+
+@pytest.mark.parametrize(("thought", "is_late"), [(10 * SECOND - 1, False), (10 * SECOND, True)])
+def test_who_plays_without_fetching_the_turn_has_no_more_time_than_others(context, unfetched, thought, is_late):
+    context.time.value += thought
+    if is_late:
+        with pytest.raises(OutOfTime):
+            concede(context, *unfetched)
+    else:
+        assert concede(context, *unfetched) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_game_that_cannot_be_ended_does_not_keep_the_others_running(context, monkeypatch, caplog):
+    broken, whole = new_game(context, "ann", "bob"), new_game(context, "cat", "dan")
+
+    def end(writing, live, reason, loser):
+        if live.id == broken[0]:
+            raise RuntimeError("its row is damaged")
+        return real(writing, live, reason, loser)
+
+    real = timer.course.end_from_outside
+    monkeypatch.setattr(timer.course, "end_from_outside", end)
+    context.time.value += 20 * SECOND
+    assert ended(context, whole)
+    assert broken[0] in caplog.text
