@@ -10,5 +10,7 @@ BENCHMARKS = {
     "error_growth": "error against the number of collisions, by the arbitrary-precision engine",
     "scaling": "balls, threads, batch size; cost of an event where nothing is near",
     "savings": "counters of the work done and skipped, and what each saving is worth",
+    "chained": "10^5 random shots, each from where the last one ended, through JSON: is any start refused?",
+    "agents": "the shipped greedy against random: games won, called balls made, seconds a stroke",
 }
 """Module in this package to one line about it."""

@@ -19,7 +19,7 @@ def test_every_line_says_what_made_it():
     assert len({line["id"] for _, line in LINES}) == len(LINES)
 
 
-@pytest.mark.parametrize("page", ["benchmarks.md", "physics.md", "../README.md"])
+@pytest.mark.parametrize("page", ["benchmarks.md", "physics.md", "agents.md", "../README.md"])
 def test_a_cited_line_exists(page):
     path = recording.ROOT / "docs" / page
     text = path.read_text() if path.exists() else ""
