@@ -25,6 +25,7 @@ from referee.wire import (
     SimulateAnswer,
     StrokeAnswer,
 )
+from referee.wire.matches import MatchStatus
 
 
 class AsyncPooliad:
@@ -80,9 +81,11 @@ class AsyncPooliad:
         """Set up a match (organiser), or challenge the other agent (one of the two)."""
         return await self._send(calls.create_match(request))
 
-    async def matches(self, cursor: str | None = None) -> MatchList:
-        """One page of the matches, the newest first."""
-        return await self._send(calls.matches(cursor))
+    async def matches(
+        self, cursor: str | None = None, *, agent: str | None = None, status: MatchStatus | None = None
+    ) -> MatchList:
+        """One page of the matches, the newest first; of one agent (id) or one status when asked for."""
+        return await self._send(calls.matches(cursor, agent, status))
 
     async def match(self, match_id: str) -> MatchView:
         """A match and how its games stand."""

@@ -39,6 +39,7 @@ from referee.wire import (
     StrokeAnswer,
     Turn,
 )
+from referee.wire.matches import MatchStatus
 
 Model = TypeVar("Model", bound=BaseModel)
 TurnMessage = Turn | GameOver | MatchOver
@@ -77,9 +78,11 @@ def create_match(request: MatchRequest) -> Call[MatchView]:
     return Call("POST", "/v1/matches", _reader(MatchView), headers=_key(), body=_json(request))
 
 
-def matches(cursor: str | None = None) -> Call[MatchList]:
-    """One page of the matches, the newest first."""
-    return Call("GET", "/v1/matches", _reader(MatchList), params=_cursor(cursor))
+def matches(cursor: str | None = None, agent: str | None = None, status: MatchStatus | None = None) -> Call[MatchList]:
+    """One page of the matches, the newest first; of one agent or one status when asked for."""
+    wanted = {"agent": agent, "status": status}
+    params = _cursor(cursor) | {name: value for name, value in wanted.items() if value is not None}
+    return Call("GET", "/v1/matches", _reader(MatchList), params=params)
 
 
 def match(match_id: str) -> Call[MatchView]:

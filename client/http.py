@@ -25,6 +25,7 @@ from referee.wire import (
     SimulateAnswer,
     StrokeAnswer,
 )
+from referee.wire.matches import MatchStatus
 
 
 class Pooliad:
@@ -83,9 +84,11 @@ class Pooliad:
         """Set up a match (organiser), or challenge the other agent (one of the two)."""
         return self._send(calls.create_match(request))
 
-    def matches(self, cursor: str | None = None) -> MatchList:
-        """One page of the matches, the newest first."""
-        return self._send(calls.matches(cursor))
+    def matches(
+        self, cursor: str | None = None, *, agent: str | None = None, status: MatchStatus | None = None
+    ) -> MatchList:
+        """One page of the matches, the newest first; of one agent (id) or one status when asked for."""
+        return self._send(calls.matches(cursor, agent, status))
 
     def match(self, match_id: str) -> MatchView:
         """A match and how its games stand."""

@@ -31,6 +31,9 @@ def run_agent(
 ) -> MatchOver:
     """Play every turn the server offers until a match is over, and return how it ended.
 
+    News of a match that ended before (of an agent that was started again) does not end the run while another
+    match of the agent is going on.
+
     Args:
         agent: an `Agent` class, a function that makes an instance (called once for each game), or a name.
         url: the server's address. token: the agent's.
@@ -51,6 +54,7 @@ class _Run:
         self._server = server
         self._players = players
         self._last: View | None = None
+        self._played_in: set[str] = set()
         self._failures = 0
 
     def until_over(self) -> MatchOver:
@@ -62,7 +66,8 @@ class _Run:
                 case GameOver() as over:
                     self._players.game_over(over)
                 case MatchOver() as over:
-                    return over
+                    if self._is_the_end(over):
+                        return over
                 case None:
                     if (missed := self._missed_end()) is not None:
                         return missed
@@ -72,6 +77,7 @@ class _Run:
         following: View | None = view
         while following is not None and following.my_turn:
             self._last = following
+            self._played_in.add(following.match)
             following = self._answer(following)
         self._pace(failed=following is None)
 
@@ -93,6 +99,13 @@ class _Run:
         self._failures = self._failures + 1 if failed else 0
         if self._failures:
             time.sleep(min(LONGEST_PAUSE, FIRST_PAUSE * 2.0 ** min(self._failures - 1, 10)))
+
+    def _is_the_end(self, over: MatchOver) -> bool:
+        """Whether the match was played here, or none of this agent's matches is left to play."""
+        if over.match in self._played_in:
+            return True
+        agent = self._server.match(over.match).agents[over.seat]
+        return not self._server.matches(agent=agent, status="running").matches
 
     def _missed_end(self) -> MatchOver | None:
         """The end of the match, when the message that told it was lost on its way."""

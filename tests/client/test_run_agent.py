@@ -186,6 +186,35 @@ def test_the_end_is_found_although_its_message_was_lost(hall, monkeypatch):
     assert over.winner == 1
 
 
+def test_old_news_does_not_end_the_next_match(hall):
+    """An agent that was away when its first match ended hears of it after its second has begun."""
+    entries = hall.register("one"), hall.register("two")
+    old = hall.match(*entries)
+    hall.organiser.abort(old.id)
+    new = hall.match(*entries, seed=80)
+    overs = [None, None]
+
+    def play(seat):
+        overs[seat] = run_agent(Conceding, hall.url, entries[seat].token)
+
+    threads = [threading.Thread(target=play, args=(seat,)) for seat in (0, 1)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(30)
+    assert overs[0].match == new.id, "seat 0 breaks: it has played in the new match"
+    assert overs[1].match in (old.id, new.id)
+    assert hall.organiser.match(new.id).status == "finished"
+
+
+def test_news_of_a_match_ends_the_run_when_nothing_is_left_to_play(hall):
+    entries = hall.register("one"), hall.register("two")
+    match = hall.match(*entries)
+    hall.organiser.abort(match.id)
+    over = run_agent(Conceding, hall.url, entries[0].token)
+    assert (over.match, over.status) == (match.id, "aborted")
+
+
 def test_a_wrong_token_is_an_error_at_once(hall):
     with pytest.raises(client.PooliadError, match="unauthorized"):
         run_agent(Conceding, hall.url, "pool_agt_wrong")
