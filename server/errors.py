@@ -29,6 +29,7 @@
 """
 
 import logging
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
@@ -37,6 +38,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
+from physics import PhysicsError
 from referee.wire import PROBLEM_JSON, Fault, Problem, ProblemCode, shown
 
 log = logging.getLogger("pooliad.server")
@@ -222,17 +224,44 @@ def invalid_fields(error: ValidationError) -> Invalid:
 
 
 def _fault(found: Mapping[str, Any]) -> Fault:
-    field = ".".join(str(part) for part in found["loc"] if not str(part).startswith("function-"))
-    missing = found["type"] == "missing"
+    parts = [str(part) for part in found["loc"] if not str(part).startswith("function-")]
     cause = found.get("ctx", {}).get("error")
-    allowed = getattr(cause, "allowed", None) or found["msg"]
+    if isinstance(cause, PhysicsError):
+        # what pydantic looked at may be the whole of a table: the physics knows which parameter it was
+        return _physics_fault(cause, parts, found["type"])
+    field = ".".join(parts)
     return Fault(
         code=found["type"],
-        field=getattr(cause, "field", None) if cause is not None and not field else field or None,
-        value=None if missing else shown(getattr(cause, "value", found["input"])),
-        allowed=allowed,
+        field=field or None,
+        value=None if found["type"] == "missing" else shown(found["input"]),
+        allowed=found["msg"],
         detail=f"{field or 'the body'}: {found['msg']}",
     )
+
+
+def invalid_physics(error: PhysicsError) -> Invalid:
+    """What the physics does not take, by the name that the field has in the request."""
+    return Invalid([_physics_fault(error, [], type(error).__name__)])
+
+
+def _physics_fault(error: PhysicsError, place: Sequence[str], code: str) -> Fault:
+    """A fault at `place` of the request, or below it."""
+    inner = error.field
+    for theirs, ours in _PHYSICS_FIELDS:
+        inner = re.sub(theirs, ours, inner)
+    field = ".".join(place if place and place[-1] == inner else [*place, inner])
+    value = shown(error.value)
+    return Fault(
+        code=code, field=field, value=value, allowed=error.allowed, detail=f"{field} is {value!r}: {error.allowed}"
+    )
+
+
+_PHYSICS_FIELDS = (
+    (r"^states\[(\d+)\]\[(\d+)\]", r"tables.\1.\2"),
+    (r"^positions\[(\d+)\]", r"balls.\1"),
+    (r"^shots\[(\d+)\]", r"shots.\1"),
+)
+"""What the physics calls a field, and what requests call it."""
 
 
 def render(error: ServerError, instance: str) -> Response:

@@ -51,7 +51,7 @@ def _numbered_balls(value: Any) -> Any:
     for key, position in value.items():
         ball = _BALL_KEYS.get(key) if isinstance(key, str) else key
         if isinstance(ball, bool) or not isinstance(ball, int) or not 0 <= ball < N_BALLS:
-            raise InvalidState(f"balls[{key!r}]", position, f"balls are numbered 0 to {N_BALLS - 1}")
+            raise InvalidState(str(key), position, f"balls are numbered 0 to {N_BALLS - 1}")
         balls[ball] = position
     return balls
 

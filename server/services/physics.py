@@ -9,19 +9,18 @@ from numpy.typing import NDArray
 
 import physics
 from physics import PhysicsError, Status, Table, TableState
+from physics.constants import N_BALLS
 from referee.wire import (
     BatchAnswer,
     BatchRequest,
     BatchRow,
     EventView,
-    Fault,
     MinElevationAnswer,
     MinElevationRequest,
     SimulateAnswer,
     SimulateRequest,
-    shown,
 )
-from server.errors import Invalid, invalid_field
+from server.errors import invalid_field, invalid_physics
 
 ON_TABLE = 0
 """`batch.pocket` is -1 for a ball on the table and -2 for one that was never there."""
@@ -33,7 +32,7 @@ def simulate(request: SimulateRequest) -> SimulateAnswer:
         table, state = Table.from_dict(request.table), TableState.from_positions(request.balls)
         result = physics.simulate(table, state, request.shot.to_shot(), trace=request.trace)
     except PhysicsError as error:
-        raise _invalid(error) from error
+        raise invalid_physics(error) from error
     return SimulateAnswer(
         status=result.status.name.lower(),
         reason=result.status.explain(),
@@ -51,7 +50,7 @@ def simulate_batch(request: BatchRequest) -> BatchAnswer:
         table = Table.from_dict(request.table)
         batch = physics.simulate_batch(table, _tables(request), _shots(request))
     except PhysicsError as error:
-        raise _invalid(error) from error
+        raise invalid_physics(error) from error
     rows = zip(batch.status, batch.duration, batch.n_events, batch.positions, batch.pocket, strict=True)
     return BatchAnswer(results=tuple(_row(*row) for row in rows))
 
@@ -62,7 +61,7 @@ def min_elevation(request: MinElevationRequest) -> MinElevationAnswer:
         table, state = Table.from_dict(request.table), TableState.from_positions(request.balls)
         theta = physics.min_elevation(table, state, request.phi, request.a, request.b)
     except PhysicsError as error:
-        raise _invalid(error) from error
+        raise invalid_physics(error) from error
     return MinElevationAnswer(theta=None if math.isnan(theta) else theta)
 
 
@@ -74,7 +73,10 @@ def _tables(request: BatchRequest) -> TableState | NDArray[np.float64]:
     tables = request.tables or ()
     if len(tables) != len(request.shots):
         raise invalid_field("tables", len(tables), f"{len(request.shots)} tables, one for each shot")
-    return np.stack([TableState.from_positions(balls).positions for balls in tables])
+    positions = np.full((len(tables), N_BALLS, 2), np.nan)
+    for row, balls in zip(positions, tables, strict=True):
+        row[list(balls)] = list(balls.values()) or np.empty((0, 2))
+    return positions
 
 
 def _shots(request: BatchRequest) -> NDArray[np.float64]:
@@ -106,17 +108,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
     return None if isinstance(value, float) and math.isnan(value) else value
-
-
-def _invalid(error: PhysicsError) -> Invalid:
-    return Invalid(
-        [
-            Fault(
-                code=type(error).__name__,
-                field=error.field,
-                value=shown(error.value),
-                allowed=error.allowed,
-                detail=str(error),
-            )
-        ]
-    )

@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 from sqlalchemy import Connection, insert
 
+from physics import PhysicsError
 from referee import Action, Decision, Refusal
 from referee.play import Refused, Stroke, play_stroke
 from referee.record import canonical, stroke_entry
@@ -42,7 +43,7 @@ def _act(context: Context, game_id: str, command: Command, read_action: Callable
         if stored := recall(connection, command):
             return stored
         _require_turn(connection, live, seat, command)
-    stroke = _played(live, read_action())
+    stroke = _played(live, read_action)
     with context.writing() as writing:
         live = find(writing.connection, game_id)
         if stored := recall(writing.connection, command):
@@ -93,11 +94,13 @@ def _version(command: Command) -> int:
     return int(digits)
 
 
-def _played(live: LiveGame, action: Action) -> Stroke:
+def _played(live: LiveGame, read_action: Callable[[], Action]) -> Stroke:
     try:
-        return play_stroke(live.rules, live.game, action, live.seeds, live.noise)
+        return play_stroke(live.rules, live.game, read_action(), live.seeds, live.noise)
     except Refused as refused:
         raise errors.Refused([_fault(refusal) for refusal in refused.refusals]) from refused
+    except PhysicsError as error:
+        raise errors.invalid_physics(error) from error
 
 
 def _fault(refusal: Refusal) -> Fault:

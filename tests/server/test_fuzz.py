@@ -1,12 +1,14 @@
 """CONTRACT: never 500 for anything a client sends; every refusal is a problem with a known code."""
 
 import json
+from dataclasses import fields
 from urllib.parse import quote
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from physics import Table
 from referee.wire import Problem
 
 PATHS = (
@@ -33,6 +35,17 @@ VALUES = st.recursive(
 SHOTS = st.fixed_dictionaries(dict.fromkeys(("v", "phi", "theta", "a", "b"), NUMBERS))
 PLACES = st.dictionaries(st.sampled_from(["0", "1", "8", "15"]), st.tuples(NUMBERS, NUMBERS), max_size=3)
 SCENES = st.fixed_dictionaries({}, optional={"shot": SHOTS, "balls": PLACES, "shots": st.lists(SHOTS, max_size=3)})
+PARAMETERS = st.sampled_from([field.name for field in fields(Table)] + ["mouths", "ball_radius", "digest", "replace"])
+NAMED = st.builds(
+    lambda changes, name: changes | {"name": name},
+    st.dictionaries(PARAMETERS, VALUES, max_size=3),
+    st.sampled_from(["olympiad", "fastfiz"]) | VALUES,
+)
+"""Tables of a known name with anything for parameters, and of a name that is anything."""
+WHOLE_SCENE = {
+    "balls": {"0": [0.5, 1.7], "3": [0.4, 0.6]},
+    "shot": {"v": 2.0, "phi": 260.0, "theta": 8.0, "a": 0.0, "b": 3.0},
+}
 BODIES = (VALUES | SCENES | st.builds(dict, SCENES, phi=NUMBERS)).map(lambda value: json.dumps(value).encode())
 BODIES |= st.binary(max_size=40)
 QUICK = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -66,6 +79,27 @@ def test_any_body(seated, path):
             "Idempotency-Key": "fuzz",
         }
         check(mover.request("POST", path.format(game=view["game"]), content=body, headers=headers))
+
+    send()
+
+
+@pytest.mark.parametrize("path", ["/v1/simulate", "/v1/simulate/batch", "/v1/min-elevation", "/v1/matches"])
+def test_any_table(seated, path):
+    """All else is well formed or comes after, so that the table's values reach the physics."""
+    mover, _ = seated
+    others = {
+        "/v1/simulate": WHOLE_SCENE,
+        "/v1/simulate/batch": {"balls": WHOLE_SCENE["balls"], "shots": [WHOLE_SCENE["shot"]]},
+        "/v1/min-elevation": {"balls": WHOLE_SCENE["balls"], "phi": 0.0},
+        "/v1/matches": {"agents": [mover.id, "agent_0"]},
+    }
+
+    @QUICK
+    @given(NAMED | VALUES)
+    def send(table):
+        body = json.dumps(others[path] | {"table": table}).encode()
+        headers = {"Content-Type": "application/json", "Idempotency-Key": "fuzz"}
+        check(mover.request("POST", path, content=body, headers=headers))
 
     send()
 

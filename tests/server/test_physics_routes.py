@@ -7,6 +7,8 @@ import pytest
 
 import physics
 
+OVERLAP = {"0": [0.5, 0.5], "1": [0.51, 0.5]}
+OFF_TABLE = {"0": [5.0, 0.5]}
 BALLS = {"0": [0.5, 1.7], "3": [0.4, 0.6], "8": [0.7, 0.5]}
 SHOT = {"v": 2.0, "phi": 260.0, "theta": 8.0, "a": 0.0, "b": 3.0}
 
@@ -91,20 +93,23 @@ def test_min_elevation_where_there_is_none(new_player):
 @pytest.mark.parametrize(
     ("path", "change", "field"),
     [
-        ("/v1/simulate", {"balls": {"0": [0.5, 0.5], "1": [0.51, 0.5]}}, "positions[1]"),
-        ("/v1/simulate", {"balls": {"0": [5.0, 0.5]}}, "positions[0]"),
-        ("/v1/simulate", {"balls": {"16": [0.5, 0.5]}}, "balls"),
-        ("/v1/simulate", {"balls": {"zero": [0.5, 0.5]}}, "balls"),
+        ("/v1/simulate", {"balls": {"0": [0.5, 0.5], "1": [0.51, 0.5]}}, "balls.1"),
+        ("/v1/simulate", {"balls": {"0": [5.0, 0.5]}}, "balls.0"),
+        ("/v1/simulate", {"balls": {"16": [0.5, 0.5]}}, "balls.16"),
+        ("/v1/simulate", {"balls": {"zero": [0.5, 0.5]}}, "balls.zero"),
         ("/v1/simulate", {"balls": {"0": [0.5]}}, "balls"),
         ("/v1/simulate", {"balls": []}, "balls"),
         ("/v1/simulate", {"shot": SHOT | {"v": 11}}, "shot.v"),
         ("/v1/simulate", {"shot": None}, "shot"),
-        ("/v1/simulate", {"table": {"name": "olympiad", "mu_slide": 7}}, "table"),
-        ("/v1/simulate", {"table": {"name": "olympiad", "nap": 7}}, "table"),
+        ("/v1/simulate", {"table": {"name": "olympiad", "mu_slide": 7}}, "table.mu_slide"),
+        ("/v1/simulate", {"table": {"name": "olympiad", "nap": 7}}, "table.nap"),
         ("/v1/simulate/batch", {"shots": []}, "shots"),
         ("/v1/simulate/batch", {"shots": [SHOT], "tables": [BALLS]}, "balls"),
         ("/v1/simulate/batch", {"shots": [SHOT], "balls": None, "tables": [BALLS, BALLS]}, "tables"),
         ("/v1/simulate/batch", {"shots": [SHOT, SHOT | {"theta": 71}]}, "shots.1.theta"),
+        ("/v1/simulate/batch", {"shots": [SHOT] * 2, "balls": None, "tables": [BALLS, OVERLAP]}, "tables.1.1"),
+        ("/v1/simulate/batch", {"shots": [SHOT] * 2, "balls": None, "tables": [BALLS, OFF_TABLE]}, "tables.1.0"),
+        ("/v1/simulate/batch", {"shots": [SHOT], "balls": OFF_TABLE}, "balls.0"),
         ("/v1/min-elevation", {"phi": "north"}, "phi"),
         ("/v1/min-elevation", {"balls": {}}, None),
         ("/v1/min-elevation", {"balls": {"1": [0.5, 0.5]}}, None),
@@ -121,6 +126,31 @@ def test_bad_scenes(new_player, path, change, field):
     problem = response.json()
     assert problem["code"] == "invalid"
     assert problem["field"].startswith(field)
+
+
+@pytest.mark.parametrize("path", ["/v1/simulate", "/v1/simulate/batch", "/v1/min-elevation"])
+@pytest.mark.parametrize(
+    ("table", "field", "value"),
+    [
+        ({"name": "olympiad", "mu_slide": 7}, "table.mu_slide", 7),
+        ({"name": "olympiad", "mu_roll": 0.02, "mu_slide": "x"}, "table.mu_slide", "x"),
+        ({"name": "olympiad", "mouths": [1]}, "table.mouths", [1]),
+        ({"name": "olympiad", "zzz": None}, "table.zzz", None),
+        ({"name": []}, "table.name", []),
+        ({"name": {}}, "table.name", {}),
+        ({}, "table.name", None),
+        ([1], "table", [1]),
+        (None, "table", None),
+    ],
+)
+def test_a_bad_table_is_named_with_its_value(new_player, path, table, field, value):
+    wholes = {"/v1/simulate": {"shot": SHOT}, "/v1/simulate/batch": {"shots": [SHOT]}, "/v1/min-elevation": {"phi": 0.0}}
+    response = new_player().request("POST", path, json=wholes[path] | {"balls": BALLS, "table": table})
+    assert response.status_code == 422, response.text
+    fault = response.json()["errors"][0]
+    assert (fault["field"], fault["value"]) == (field, value)
+    assert fault["allowed"]
+    assert fault["detail"].startswith(field)
 
 
 def test_the_physics_needs_a_token(server):
