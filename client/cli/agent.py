@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from client.cli.output import Json, emit, say
+from client.cli.output import USAGE, Json, emit, fail, say
 from client.cli.players import load_player
 
 
@@ -36,6 +36,8 @@ def run(
 
     from client.run import run_agent
 
+    if not _can_be_sent(token):
+        fail("--token holds characters that no token has: letters, digits and signs of ASCII only", USAGE)
     logging.basicConfig(stream=sys.stderr, format="%(asctime)s %(levelname)s %(message)s")
     over = run_agent(load_player(name, seed), url, token)
     if as_json:
@@ -43,3 +45,8 @@ def run(
     else:
         score = f"{over.score[0]:g} to {over.score[1]:g}"
         say(f"match {over.match} {over.status}: {score}, this was seat {over.seat}")
+
+
+def _can_be_sent(token: str) -> bool:
+    """Whether an HTTP header can carry it: visible ASCII without spaces."""
+    return bool(token) and all("!" <= character <= "~" for character in token)

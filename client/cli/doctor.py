@@ -26,6 +26,7 @@ def doctor(
         "versions": _versions(),
         "packages": {name: _origin(name) for name in PACKAGES},
         "kernel_cache": _kernel_cache(),
+        "record_engine": _record_engine(),
         "database": _database(database),
         "port": _port(port),
         "self_test": _self_test(),
@@ -68,7 +69,14 @@ def _kernel_cache() -> dict[str, Any]:
 
     folder = cache_folder()
     state = "no folder can be written" if folder is None else "filled" if any(folder.iterdir()) else "empty"
-    return {"folder": None if folder is None else str(folder), "state": state, "engine": digest()}
+    return {"folder": None if folder is None else str(folder), "state": state, "kernels_digest": digest()}
+
+
+def _record_engine() -> dict[str, str]:
+    """What records made here name as their engine, and `pooliad replay verify` asks for."""
+    from referee.record import this_engine
+
+    return this_engine().to_dict()
 
 
 def _database(url: str) -> dict[str, Any]:

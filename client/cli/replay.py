@@ -31,12 +31,15 @@ def show(
 ) -> None:
     """Print a game, a sentence a stroke; or one stroke with everything that happened in it."""
     record = _read(file)
-    if shot is not None:
-        _show_stroke(record, shot, as_json)
-    elif as_json:
-        emit({"header": record.header, "strokes": record.entries, "end": record.end})
-    else:
-        _tell_game(record)
+    try:
+        if shot is not None:
+            _show_stroke(record, shot, as_json)
+        elif as_json:
+            emit({"header": record.header, "strokes": record.entries, "end": record.end})
+        else:
+            _tell_game(record)
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        fail(f"{file} is no whole record of a game: {error!r}")
 
 
 def verify(file: File, as_json: Json = False) -> None:
@@ -92,13 +95,13 @@ def _sentence(entry: dict[str, Any], players: tuple[str, str]) -> str:
 
 def _tell_game(record: "Record") -> None:
     """The whole game, for people."""
-    header, end = record.header, record.end
-    say(f"{header['players'][0]} against {header['players'][1]}, noise {header['noise']['level']:g}")
+    header, outcome = record.header, record.end["outcome"]
+    players, level = header["players"], header["noise"]["level"]
+    winner = "nobody" if outcome["winner"] is None else players[outcome["winner"]]
+    say(f"{players[0]} against {players[1]}, noise {level:g}")
     for entry in record.entries:
-        say(_sentence(entry, header["players"]))
-    winner = end["outcome"]["winner"]
-    name = "nobody" if winner is None else header["players"][winner]
-    say(f"{name} wins: {end['outcome']['reason']} ({end['outcome']['rule']})")
+        say(_sentence(entry, players))
+    say(f"{winner} wins: {outcome['reason']} ({outcome['rule']})")
 
 
 def _show_stroke(record: "Record", number: int, as_json: bool) -> None:

@@ -15,6 +15,8 @@ from typer.testing import CliRunner
 import physics
 from client import notation
 from client.cli import application, serve
+from physics.engine import digest
+from referee.record import this_engine
 
 POSITION = "0:0.5,1.7 3:0.4,0.6"
 TABLE = physics.Table.olympiad()
@@ -110,6 +112,13 @@ def test_doctor_reports_and_agrees_with_itself():
     assert report["self_test"]["digest"] in run("doctor").stdout
 
 
+def test_doctor_names_the_engine_as_records_do():
+    """The digest that `replay verify` asks for is that of the record's engine, not that of the compiled kernels."""
+    report = json.loads(run("doctor", "--json").stdout)
+    assert report["record_engine"] == this_engine().to_dict()
+    assert report["kernel_cache"]["kernels_digest"] == digest() != report["record_engine"]["digest"]
+
+
 def test_doctor_fails_where_something_does_not_work():
     done = run("doctor", "--database", "sqlite:////proc/none/pooliad.db", "--json")
     assert done.exit_code == 1
@@ -195,3 +204,37 @@ def test_a_file_that_is_no_record_is_named(command, tmp_path):
     (tmp_path / "text.jsonl").write_text("hello\n")
     text = run("replay", command, tmp_path / "text.jsonl")
     assert text.exit_code == 1
+
+
+BARE = '{"type": "game"}\n{"type": "end"}\n'
+HALF = '{"type":"game","players":["a","b"],"noise":{"level":1}}\n{"type":"stroke","stroke":0}\n{"type":"end"}\n'
+
+
+@pytest.mark.parametrize("text", [BARE, HALF], ids=["bare", "half"])
+@pytest.mark.parametrize("arguments", [["show"], ["show", "--shot", "1"], ["verify"]], ids=" ".join)
+def test_a_record_with_missing_parts_is_one_line(text, arguments, tmp_path):
+    file = tmp_path / "game.jsonl"
+    file.write_text(text)
+    done = run("replay", *arguments, file)
+    assert done.exit_code in (1, 2)
+    assert done.exception is None or isinstance(done.exception, SystemExit)
+    told = (done.stderr or done.stdout).strip().splitlines()
+    assert len(told) == 1
+    assert "game.jsonl" in told[0] or "--shot" in told[0]
+    assert "argument after **" not in told[0]
+
+
+@pytest.mark.parametrize("token", ["\u00e9\u20ac", "two words", "line\nbreak"])
+def test_a_token_that_no_header_can_carry_is_named(token):
+    done = run("agent", "run", "random", "--url", "http://127.0.0.1:9", "--token", token)
+    assert done.exit_code == 2
+    assert "token" in done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize("table", ['{"name": []}', '{"mu_roll": "x"}', "[]", '{"mouths": [1]}'])
+def test_a_table_that_is_none_is_one_line(table):
+    done = run("simulate", "--v", "2", "--phi", "0", "--balls", POSITION, "--table", table)
+    assert done.exception is None or isinstance(done.exception, SystemExit)
+    assert done.exit_code == 2
+    assert len(done.stderr.strip().splitlines()) == 1
