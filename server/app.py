@@ -45,6 +45,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.context = context
     app.openapi = partial(openapi.document, app)  # type: ignore[method-assign]
     app.add_middleware(BodyGate, limit=settings.body_limit, seconds=settings.body_seconds, time=context.time)
+    app.state.endpoints = (*app.routes, *(route for router in ROUTERS for route in router.routes))
     for router in ROUTERS:
         app.include_router(router)
     return app

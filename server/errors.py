@@ -37,6 +37,7 @@ from pydantic import ValidationError
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
+from starlette.routing import Match
 
 from physics import PhysicsError
 from referee.wire import PROBLEM_JSON, Fault, Problem, ProblemCode, shown
@@ -280,8 +281,16 @@ async def handle_framework_error(request: Request, error: Exception) -> Response
     """Exception handler for the framework's own 404 and 405."""
     assert isinstance(error, HTTPException)
     if error.status_code == 405:
-        return render(MethodNotAllowed(f"{request.method} is not allowed here"), request.url.path)
+        response = render(MethodNotAllowed(f"{request.method} is not allowed here"), request.url.path)
+        response.headers["allow"] = ", ".join(_methods(request))
+        return response
     return render(NotFound(f"there is nothing at {request.url.path}"), request.url.path)
+
+
+def _methods(request: Request) -> list[str]:
+    """What is allowed at the request's address, over all routes: the framework knows of the first alone."""
+    here = [route for route in request.app.state.endpoints if route.matches(request.scope)[0] is not Match.NONE]
+    return sorted({method for route in here for method in route.methods})
 
 
 async def handle_fault(request: Request, error: Exception) -> Response:

@@ -69,4 +69,5 @@ def _parsed(name: str, text: str, kind: Callable[[str], Any]) -> Any:
     try:
         return kind(text)
     except ValueError as error:
-        raise SettingsError(f"{name} is {text!r}; allowed: a number") from error
+        allowed = "a whole number" if kind is int else "a number"
+        raise SettingsError(f"{name} is {text!r}; allowed: {allowed}") from error

@@ -2,7 +2,7 @@
 
 from referee.wire.agents import AgentList, AgentRequest, AgentToken, AgentView
 from referee.wire.answers import ShotsPage, StrokeAnswer
-from referee.wire.matches import GameAnswer, GameSummary, MatchList, MatchRequest, MatchView
+from referee.wire.matches import GameAnswer, GameSummary, MatchList, MatchRequest, MatchStatus, MatchView
 from referee.wire.outcomes import (
     BallStateView,
     EventView,
@@ -60,6 +60,7 @@ __all__ = [
     "MatchList",
     "MatchOver",
     "MatchRequest",
+    "MatchStatus",
     "MatchView",
     "MinElevationAnswer",
     "MinElevationRequest",

@@ -3,8 +3,8 @@
 from fastapi import APIRouter, Response
 
 from referee.wire import AgentList, AgentRequest, AgentToken
-from server.errors import Invalid, NameTaken
-from server.routes.dependencies import Authenticated, Body, ContentType, Cursor, Limit, Sent, Server, respond
+from server.errors import Invalid, NameTaken, Unauthorized
+from server.routes.dependencies import ANYBODY, Authenticated, Body, ContentType, Cursor, Limit, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import agents
 from server.services.commands import parse_body
@@ -22,7 +22,7 @@ def register(context: Server, body: Body, content_type: ContentType = None) -> R
     return respond(agents.register(context, parse_body(body, content_type, AgentRequest)))
 
 
-@router.get("", **describe(Invalid, token=False), summary="All agents")
+@router.get("", **describe(Invalid, Unauthorized, token=False), dependencies=[ANYBODY], summary="All agents")
 def listing(context: Server, cursor: Cursor, limit: Limit) -> AgentList:
     """Agents in order of registration."""
     return agents.listing(context, cursor, limit)

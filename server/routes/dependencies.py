@@ -41,6 +41,8 @@ Authenticated = Annotated[Caller, Depends(_caller)]
 """Somebody with a valid token; 401 for anybody else."""
 Reader = Annotated[Caller | None, Depends(_reader)]
 """Whoever reads something public; a token, when one is sent, must be valid all the same."""
+ANYBODY = Depends(_reader)
+"""The same for an endpoint that shows everybody the same."""
 
 
 def _body(request: Request) -> bytes:

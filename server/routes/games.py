@@ -15,7 +15,7 @@ from server.errors import (
     Unauthorized,
     VersionRequired,
 )
-from server.routes.dependencies import Cursor, InHand, Limit, Reader, Sent, Server, respond
+from server.routes.dependencies import ANYBODY, Cursor, InHand, Limit, Reader, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import history, strokes
 
@@ -64,7 +64,12 @@ def concede(game_id: str, context: Server, command: Sent) -> Response:
     return respond(strokes.concede(context, game_id, command))
 
 
-@router.get("/shots", **describe(NotFound, Invalid, token=False), summary="The strokes of a game, in pages")
+@router.get(
+    "/shots",
+    **describe(NotFound, Invalid, Unauthorized, token=False),
+    dependencies=[ANYBODY],
+    summary="The strokes of a game, in pages",
+)
 def shots(game_id: str, context: Server, cursor: Cursor, limit: Limit) -> ShotsPage:
     """Strokes and decisions in order, with their events."""
     return history.shots(context, game_id, cursor, limit)
@@ -72,7 +77,8 @@ def shots(game_id: str, context: Server, cursor: Cursor, limit: Limit) -> ShotsP
 
 @router.get(
     "/record",
-    **describe(NotFound, GameUnfinished, success={200: RECORD_TYPE}, token=False),
+    **describe(NotFound, GameUnfinished, Unauthorized, success={200: RECORD_TYPE}, token=False),
+    dependencies=[ANYBODY],
     summary="The record of a finished game",
 )
 def record(game_id: str, context: Server) -> Response:

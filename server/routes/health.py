@@ -10,17 +10,21 @@ from server.store.upgrade import is_current
 router = APIRouter(tags=["operations"])
 
 
+@router.head("/healthz", include_in_schema=False)
 @router.get("/healthz", **describe(token=False), summary="The process runs")
 def healthz() -> dict[str, str]:
     """Answers as long as the process serves requests at all."""
     return {"status": "ok"}
 
 
+@router.head("/readyz", include_in_schema=False)
 @router.get("/readyz", **describe(Draining, token=False), summary="The server can take games")
 def readyz(context: Server) -> dict[str, str]:
     """The kernels are loaded, the database has this version's tables, and the server is not shutting down."""
     if context.wakeups.draining.is_set():
         raise Draining("the server is shutting down")
+    if context.warm_up_failed.is_set():
+        raise Draining("the physics kernels could not be loaded; the log says why")
     if not context.warm.is_set():
         raise Draining("the physics kernels are being loaded")
     if not is_current(context.database):

@@ -5,8 +5,8 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Response
 
 from referee.wire import MatchList, MatchRequest, MatchView
-from server.errors import Forbidden, Invalid, NotFound, WrongStatus
-from server.routes.dependencies import Cursor, Limit, Sent, Server, respond
+from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
+from server.routes.dependencies import ANYBODY, Cursor, Limit, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import matches
 
@@ -26,7 +26,9 @@ def create(context: Server, command: Sent) -> Response:
     return respond(matches.create(context, command))
 
 
-@router.get("", **describe(Invalid, token=False), summary="Matches, the newest first")
+@router.get(
+    "", **describe(Invalid, Unauthorized, token=False), dependencies=[ANYBODY], summary="Matches, the newest first"
+)
 def listing(
     context: Server,
     cursor: Cursor,
@@ -38,7 +40,7 @@ def listing(
     return matches.listing(context, agent, status, cursor, limit)
 
 
-@router.get("/{match_id}", **describe(NotFound, token=False), summary="One match")
+@router.get("/{match_id}", **describe(NotFound, Unauthorized, token=False), dependencies=[ANYBODY], summary="One match")
 def one(match_id: str, context: Server) -> MatchView:
     """The match with its games so far."""
     return matches.one(context, match_id)

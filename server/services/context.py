@@ -20,7 +20,7 @@ class Context:
     """One server's parts.
 
     Attributes:
-        warm: set when the kernels are loaded.
+        warm: set when the kernels are loaded; warm_up_failed: set when they could not be.
         in_hand: for each game the arrival times of the requests that are being worked on.
     """
 
@@ -29,6 +29,7 @@ class Context:
     time: TimeSource = field(default_factory=TimeSource)
     wakeups: Wakeups = field(default_factory=Wakeups)
     warm: threading.Event = field(default_factory=threading.Event)
+    warm_up_failed: threading.Event = field(default_factory=threading.Event)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
 
     @property

@@ -1,18 +1,20 @@
 """Matches: made by the organiser or by challenge and acceptance, played game after game, aborted."""
 
 import secrets
-from typing import Any
+from typing import Any, Final, get_args
 
 from sqlalchemy import Connection, Row, insert, or_, select, update
 
 from referee.play import nanoseconds
-from referee.wire import MatchList, MatchRequest, MatchView
+from referee.wire import MatchList, MatchRequest, MatchStatus, MatchView
 from server.errors import Forbidden, NotFound, WrongStatus, invalid_field
 from server.security.callers import Caller
 from server.services import games, match_views
 from server.services.commands import Answer, Command, once, parse
 from server.services.context import Context, Writing
 from server.store.tables import agents, matches
+
+STATUSES: Final[tuple[str, ...]] = get_args(MatchStatus)
 
 
 def create(context: Context, command: Command) -> Answer:
@@ -50,11 +52,13 @@ def one(context: Context, match_id: str) -> MatchView:
 
 
 def listing(context: Context, agent_id: str | None, status: str | None, cursor: int, limit: int) -> MatchList:
-    """Matches, the newest first, of one agent or of one status when asked for."""
+    """Matches, the newest first, of one agent or of one status when asked for; raises `Invalid`."""
     query = select(matches).order_by(matches.c.created_at.desc(), matches.c.id)
     if agent_id is not None:
         query = query.where(or_(matches.c.seat_0 == agent_id, matches.c.seat_1 == agent_id))
     if status is not None:
+        if status not in STATUSES:
+            raise invalid_field("status", status, f"one of {', '.join(STATUSES)}")
         query = query.where(matches.c.status == status)
     with context.database.reading() as connection:
         rows = connection.execute(query.offset(cursor).limit(limit + 1)).all()

@@ -2,7 +2,9 @@
 
 import json
 import socket
+import sqlite3
 import uuid
+from contextlib import closing
 
 import pytest
 
@@ -322,3 +324,51 @@ def test_a_faulty_value_is_not_echoed_in_full(at_break):
     response = mover.act(view, {"shot": "x" * 100_000, uuid.uuid4().hex: ["y" * 100_000] * 10})
     problem_of(response, 422, "invalid")
     assert len(response.content) < 10_000
+
+
+def test_a_table_the_physics_does_not_take_is_a_problem_that_names_the_ball(new_table, server, break_shot):
+    """Whatever a game's table has become, a shot at it is answered in words."""
+    table = new_table()
+    mover, view = table.mover()
+    with closing(sqlite3.connect(server.database)) as database, database:
+        (state,) = database.execute("SELECT state FROM games WHERE id = ?", (view["game"],)).fetchone()
+        damaged = json.loads(state)
+        damaged["state"]["3"] = [5.0, 0.5]
+        database.execute("UPDATE games SET state = ? WHERE id = ?", (json.dumps(damaged), view["game"]))
+    problem = problem_of(mover.act(view, break_shot), 422, "invalid")
+    assert (problem["field"], problem["value"]) == ("balls.3", [5.0, 0.5])
+    table.organiser.post(f"/v1/matches/{table.match['id']}/abort")
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "allowed"),
+    [
+        ("PUT", "/v1/agents", "GET, POST"),
+        ("DELETE", "/v1/games/none/shots", "GET, POST"),
+        ("GET", "/v1/simulate", "POST"),
+        ("POST", "/healthz", "GET, HEAD"),
+    ],
+)
+def test_a_method_not_allowed_comes_with_those_that_are(server, method, path, allowed):
+    """RFC 9110, 15.5.6: the server must send Allow."""
+    response = server.request(method, path)
+    problem_of(response, 405, "method_not_allowed")
+    assert response.headers["allow"] == allowed
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/v1/agents",
+        "/v1/matches",
+        "/v1/matches/{match}",
+        "/v1/games/{game}",
+        "/v1/games/{game}/shots",
+        "/v1/games/{game}/record",
+    ],
+)
+def test_a_bad_token_is_refused_where_none_is_needed(new_table, server, path):
+    table = new_table()
+    address = path.format(match=table.match["id"], game=table.game)
+    problem_of(server.request("GET", address, "pool_agt_" + "x" * 43), 401, "unauthorized")
+    assert server.request("GET", address).status_code in (200, 409)

@@ -132,3 +132,11 @@ def test_the_noise_level_is_told_to_nobody_unless_it_is_told_to_the_players(new_
     assert view["noise"] == match["noise"] == {"told": False, "level": None}
     aborted = table.organiser.post(f"/v1/matches/{table.match['id']}/abort").json()
     assert aborted["noise"] == {"told": False, "level": 3.0}
+
+
+def test_matches_of_a_status_there_is_not_are_refused(server):
+    response = server.request("GET", "/v1/matches", params={"status": "zzz"})
+    assert response.status_code == 422
+    problem = response.json()
+    assert (problem["code"], problem["field"], problem["value"]) == ("invalid", "status", "zzz")
+    assert problem["allowed"] == "one of challenged, running, finished, aborted"

@@ -144,8 +144,8 @@ def test_bad_scenes(new_player, path, change, field):
     ],
 )
 def test_a_bad_table_is_named_with_its_value(new_player, path, table, field, value):
-    wholes = {"/v1/simulate": {"shot": SHOT}, "/v1/simulate/batch": {"shots": [SHOT]}, "/v1/min-elevation": {"phi": 0.0}}
-    response = new_player().request("POST", path, json=wholes[path] | {"balls": BALLS, "table": table})
+    shots = {"/v1/simulate": {"shot": SHOT}, "/v1/simulate/batch": {"shots": [SHOT]}}
+    response = new_player().request("POST", path, json=shots.get(path, {"phi": 0.0}) | {"balls": BALLS, "table": table})
     assert response.status_code == 422, response.text
     fault = response.json()["errors"][0]
     assert (fault["field"], fault["value"]) == (field, value)

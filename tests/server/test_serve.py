@@ -12,7 +12,11 @@ import pytest
 from alembic.autogenerate import compare_metadata
 from alembic.runtime.migration import MigrationContext
 
-from server.errors import SettingsError
+import physics
+from server.errors import Draining, SettingsError
+from server.routes.health import readyz
+from server.services import warmup
+from server.services.context import Context
 from server.settings import Settings
 from server.store.database import Database
 from server.store.tables import metadata
@@ -52,7 +56,7 @@ def test_a_taken_port_is_an_error_in_words(tmp_path):
     [
         ({"POOLIAD_DATABASE": "mysql://x"}, "mysql://x"),
         ({"POOLIAD_DATABASE": "sqlite://"}, "sqlite:///path"),
-        ({"POOLIAD_BODY_LIMIT": "soon"}, "POOLIAD_BODY_LIMIT is 'soon'"),
+        ({"POOLIAD_BODY_LIMIT": "1e6"}, "POOLIAD_BODY_LIMIT is '1e6'; allowed: a whole number"),
         ({"POOLIAD_TIMER_PERIOD": "-1"}, "timer_period is -1.0"),
         ({"POOLIAD_BODY_SECONDS": "nan"}, "body_seconds is nan"),
         ({"POOLIAD_ORGANISER_TOKEN": "secret"}, "at least 32"),
@@ -138,3 +142,26 @@ def test_the_organisers_token_is_nowhere_in_the_database(own_server, organiser):
     server.stop()
     assert organiser.token.encode() not in server.database.read_bytes()
     assert json.dumps(organiser.token) not in server.log
+
+
+@pytest.mark.parametrize("path", ["/healthz", "/readyz"])
+def test_whoever_looks_after_the_server_may_ask_by_head(server, path):
+    response = server.request("HEAD", path)
+    assert response.status_code in (200, 503)
+    assert response.content == b""
+
+
+def test_kernels_that_cannot_be_loaded_are_logged_and_reported(tmp_path, monkeypatch, caplog):
+    context = Context(Settings(), Database(f"sqlite:///{tmp_path / 'cold.db'}"))
+
+    def fail(*_):
+        raise OSError("no space for the kernels")
+
+    monkeypatch.setattr(physics, "simulate", fail)
+    warmup.start(context)
+    assert context.warm_up_failed.wait(60)
+    assert not context.warm.is_set()
+    assert "no space for the kernels" in caplog.text
+    with pytest.raises(Draining, match="could not be loaded"):
+        readyz(context)
+    context.database.dispose()
