@@ -12,9 +12,12 @@ from physics.errors import InvalidShot, InvalidState
 from physics.facts import FACTS_DTYPE
 from physics.parameters import parameters
 from physics.shot import FIELDS
-from physics.simulation import NO_COUNTERS, NO_TRACE, checked_positions
+from physics.simulation import N_COUNTERS, NO_COUNTERS, NO_TRACE, checked_positions
 from physics.state import TableState
 from physics.table import Table
+
+FACTS_WORDS = FACTS_DTYPE.itemsize // 4
+"""Size of one shot's facts in 32-bit words."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -72,7 +75,7 @@ def simulate_batch(
     Raises:
         InvalidShot: wrong shape, or a value that is not finite; names the first bad row.
         InvalidState: wrong shape, not finite, off the table or overlapping; names the first bad row.
-        ValueError: ``threads`` is not a positive integer.
+        ValueError: ``threads`` is not a positive integer, or ``counters`` another kind of array.
     """
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
         raise ValueError(f"threads = {threads!r}: must be a positive integer")
@@ -83,9 +86,12 @@ def simulate_batch(
         np.empty((n, N_BALLS, 2)), np.empty((n, N_BALLS), np.int8), np.empty(n, np.int8), np.empty(n, FACTS_DTYPE)
     )
     arguments = (
-        *(positions, strokes, batch.positions.reshape(n, -1), batch.pocket, batch.status),
-        *(batch.facts.view(np.int32).reshape(n, -1), batch.facts.view(np.float64).reshape(n, -1)),
-        *(NO_TRACE, 0, NO_COUNTERS if counters is None else counters),
+        *(positions, strokes, batch.positions.reshape(n, 2 * N_BALLS), batch.pocket, batch.status),
+        *(
+            batch.facts.view(np.int32).reshape(n, FACTS_WORDS),
+            batch.facts.view(np.float64).reshape(n, FACTS_WORDS // 2),
+        ),
+        *(NO_TRACE, 0, NO_COUNTERS if counters is None else _checked_counters(counters, n)),
     )
     run, row = kernels().simulate_rows, parameters(table)
     if threads == 1 or n < 2:
@@ -100,9 +106,13 @@ def simulate_batch(
 
 def _checked_shots(shots: ArrayLike) -> NDArray[np.float64]:
     try:
-        strokes = np.ascontiguousarray(shots, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InvalidShot("shots", type(shots).__name__, "must be numbers, shape (n, 5)") from None
+        given = np.asarray(shots)
+    except ValueError:  # ragged
+        given = np.empty(0, object)
+    whole_numbers_in_lists = given.dtype.kind in "iu" and not isinstance(shots, np.ndarray)
+    if given.dtype != np.float64 and not whole_numbers_in_lists:
+        raise InvalidShot("shots", given.dtype.name, "must be float64")
+    strokes = np.ascontiguousarray(given, dtype=np.float64)
     if strokes.ndim != 2 or strokes.shape[1] != len(FIELDS):
         raise InvalidShot("shots", strokes.shape, f"must have shape (n, 5), columns {FIELDS}")
     bad = np.argwhere(~np.isfinite(strokes))
@@ -110,6 +120,13 @@ def _checked_shots(shots: ArrayLike) -> NDArray[np.float64]:
         row, column = bad[0].tolist()
         raise InvalidShot(f"shots[{row}].{FIELDS[column]}", float(strokes[row, column]), "must be a finite number")
     return strokes
+
+
+def _checked_counters(counters: NDArray[np.int64], n: int) -> NDArray[np.int64]:
+    fits = isinstance(counters, np.ndarray) and counters.dtype == np.int64 and counters.shape == (n, N_COUNTERS)
+    if not (fits and counters.flags.c_contiguous and counters.flags.writeable):
+        raise ValueError(f"counters: must be a writeable C-contiguous int64 array of shape ({n}, {N_COUNTERS})")
+    return counters
 
 
 def _checked_states(table: Table, states: TableState | NDArray[np.float64], n: int) -> NDArray[np.float64]:
@@ -120,7 +137,7 @@ def _checked_states(table: Table, states: TableState | NDArray[np.float64], n: i
         raise InvalidState(
             "states", (positions.dtype.name, positions.shape), f"must be float64 of shape ({n}, {N_BALLS}, 2)"
         )
-    flat = positions.reshape(n, -1)
+    flat = positions.reshape(n, 2 * N_BALLS)
     least = 2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE
     row, ball, other = kernels().first_bad_row(parameters(table), flat, least * least, PLACEMENT_TOLERANCE)
     if row >= 0:

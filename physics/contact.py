@@ -1,7 +1,5 @@
 """The event loop's contact solver, for those who want to test or use it."""
 
-import math
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -20,13 +18,18 @@ def contact_time(c: ArrayLike, b: ArrayLike, a: ArrayLike, t_max: float, distanc
     Raises:
         PhysicsError: a value of another kind.
     """
-    numbers = []
-    for name, vector in (("c", c), ("b", b), ("a", a)):
-        pair = np.asarray(vector, dtype=np.float64)
-        if pair.shape != (2,) or not np.isfinite(pair).all():
-            raise PhysicsError(name, vector, "must be two finite numbers")
-        numbers += pair.tolist()
-    for name, value in (("t_max", t_max), ("distance", distance)):
-        if not (math.isfinite(value) and value >= 0.0) or (name == "distance" and value == 0.0):
-            raise PhysicsError(name, value, "must be a finite positive number")
-    return float(kernels().time_of_contact(*numbers, float(t_max), float(distance)))
+    path = [_numbers(name, vector, (2,)) for name, vector in (("c", c), ("b", b), ("a", a))]
+    (until,), (meet,) = _numbers("t_max", t_max, ()), _numbers("distance", distance, ())
+    if until < 0.0 or meet <= 0.0:
+        raise PhysicsError("t_max, distance", (until, meet), "must not be negative, and the distance not 0")
+    return float(kernels().time_of_contact(*(number for pair in path for number in pair), until, meet))
+
+
+def _numbers(name: str, value: ArrayLike, shape: tuple[int, ...]) -> list[float]:
+    try:
+        array = np.asarray(value)
+    except ValueError:  # ragged
+        array = np.empty(0, object)
+    if array.dtype.kind not in "iuf" or array.shape != shape or not np.isfinite(array).all():
+        raise PhysicsError(name, value, "must be a finite number" if shape == () else "must be two finite numbers")
+    return [float(number) for number in array.reshape(-1)]

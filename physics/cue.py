@@ -6,7 +6,7 @@ import numpy as np
 
 from physics.constants import BALL_RADIUS, CUSHION_NAMES
 from physics.engine import kernels, workspace
-from physics.errors import InvalidShot
+from physics.errors import InvalidShot, InvalidState
 from physics.parameters import parameters
 from physics.shot import Shot
 from physics.simulation import checked_positions
@@ -35,7 +35,10 @@ def check(table: Table, state: TableState, shot: Shot) -> Unplayable | None:
 
     Raises:
         InvalidState: a ball lies off the table.
+        InvalidShot: ``shot`` is not a ``Shot``.
     """
+    if not isinstance(shot, Shot):
+        raise InvalidShot("shot", shot, "must be a physics.Shot")
     stroke = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b]])
     number, obstacle = kernels().check_shot(parameters(table), *workspace(), checked_positions(table, state), stroke)
     status = Status(number)
@@ -60,6 +63,8 @@ def min_elevation(table: Table, state: TableState, phi: float, a: float = 0.0, b
     if shot.a * shot.a + shot.b * shot.b > 1e6 * BALL_RADIUS * BALL_RADIUS:
         raise InvalidShot("a, b", (a, b), f"must satisfy a^2 + b^2 <= R^2 with R = {1e3 * BALL_RADIUS} mm")
     positions = checked_positions(table, state)
+    if state.position(0) is None:
+        raise InvalidState("positions[0]", None, "there must be a cue ball on the table")
     if not table.cue_test:
         return 0.0
     return float(kernels().elevation_needed(parameters(table), *workspace(), positions, shot.phi, shot.a, shot.b))

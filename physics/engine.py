@@ -12,6 +12,7 @@ import importlib
 import os
 import sys
 import tempfile
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -21,13 +22,15 @@ from numpy.typing import NDArray
 WORK_FLOATS, WORK_INTEGERS = 392, 216
 """Size of the kernels' memory: W_SIZE and K_SIZE of ``physics.kernels.layout``, which a test compares."""
 
+_LOADING = threading.Lock()
+
 CACHE_VARIABLE = "POOLIAD_CACHE_DIR"
 """Environment variable naming the folder for compiled kernels; else the user's cache folder."""
 
 
 @functools.cache
 def digest() -> str:
-    """SHA-256 over the sources of the kernels, hex: names this engine in records and caches."""
+    """SHA-256 over the sources of the kernels, hex: names the folder of their compiled code."""
     return digest_of(Path(__file__).with_name("kernels"))
 
 
@@ -41,19 +44,27 @@ def digest_of(sources: Path) -> str:
 
 def cache_folder() -> Path | None:
     """The folder for this engine's compiled kernels, made if need be; None if no place can be written."""
-    places = [os.environ.get(CACHE_VARIABLE), os.environ.get("XDG_CACHE_HOME")]
-    named = [Path(place) / "pooliad" for place in places if place]
+    places = [Path(place) / "pooliad" for name in (CACHE_VARIABLE, "XDG_CACHE_HOME") if (place := os.environ.get(name))]
     with contextlib.suppress(RuntimeError):  # there may be no home
-        named.append(Path.home() / ".cache" / "pooliad")
-    for place in [*named, Path(tempfile.gettempdir()) / f"pooliad-{os.getuid() if hasattr(os, 'getuid') else 0}"]:
-        folder = place / f"kernels-{digest()[:16]}"
-        try:
-            folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-            with tempfile.TemporaryFile(dir=folder):
-                return folder
-        except OSError:
-            continue
-    return None
+        places.append(Path.home() / ".cache" / "pooliad")
+    with contextlib.suppress(OSError):  # nor a place for temporary files
+        places.append(Path(tempfile.gettempdir()) / f"pooliad-{_user()}")
+    return next((folder for place in places if (folder := _usable(place))), None)
+
+
+def _user() -> int:
+    return os.getuid() if hasattr(os, "getuid") else 0
+
+
+def _usable(place: Path) -> Path | None:
+    """The kernels' folder in ``place``, if it can be written and is nobody else's: what lies there is executed."""
+    folder = place / f"kernels-{digest()[:16]}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder if folder.stat().st_uid == _user() else None
+    except OSError:
+        return None
 
 
 def workspace() -> tuple[NDArray[np.float64], NDArray[np.int64]]:
@@ -64,14 +75,21 @@ def workspace() -> tuple[NDArray[np.float64], NDArray[np.int64]]:
 @functools.cache
 def kernels() -> Any:
     """The module of compiled entry points."""
+    with _LOADING:  # numba's setting below is the whole process's
+        return _load()
+
+
+@functools.cache
+def _load() -> Any:
     import numba
 
     folder = cache_folder()
     if folder is not None and not any(folder.iterdir()) and not numba.config.DISABLE_JIT:
-        sys.stderr.write("pooliad: compiling the physics for this processor, once (10 to 20 s) ...\n")
+        sys.stderr.write("pooliad: compiling the physics for this processor, once (10 to 60 s) ...\n")
     before = numba.config.CACHE_DIR
     try:
-        numba.config.CACHE_DIR = str(folder or tempfile.mkdtemp(prefix="pooliad-"))
-        return importlib.import_module("physics.kernels.entries")
+        numba.config.CACHE_DIR = str(folder or "")
+        module = importlib.import_module("physics.kernels.entries")
     finally:
         numba.config.CACHE_DIR = before
+    return module

@@ -107,7 +107,7 @@ def _are_clear(places: NDArray[np.float64], diameter: float) -> bool:
 
 
 def _checked_gap(gap: float) -> float:
-    if not 0.0 <= gap <= 1e-3:
+    if isinstance(gap, bool) or not isinstance(gap, int | float) or not 0.0 <= gap <= 1e-3:
         raise InvalidState("gap", gap, "must be in [0, 0.001] m")
     return gap
 

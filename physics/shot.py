@@ -1,7 +1,9 @@
 """A shot in Olympiad units."""
 
+import contextlib
 import dataclasses
 import math
+import numbers
 from collections.abc import Mapping
 from typing import Any, Self
 
@@ -45,8 +47,12 @@ class Shot:
             raise InvalidShot("theta", self.theta, f"must be in [0, {THETA_MAX}] deg")
 
     def replace(self, **changes: float) -> Self:
-        """Return a copy with some parameters changed."""
-        return dataclasses.replace(self, **changes)
+        """Return a copy with some parameters changed.
+
+        Raises:
+            InvalidShot: an unknown parameter, or a bad value.
+        """
+        return self.from_dict(self.to_dict() | changes)
 
     def to_dict(self) -> dict[str, float]:
         """The five parameters by name."""
@@ -59,6 +65,8 @@ class Shot:
         Raises:
             InvalidShot: a missing or unknown parameter, or a bad value.
         """
+        if not isinstance(values, Mapping):
+            raise InvalidShot("shot", values, f"must be a mapping with the parameters {FIELDS}")
         for name in values:
             if name not in FIELDS:
                 raise InvalidShot(str(name), values[name], f"is not a parameter of a shot; these are: {FIELDS}")
@@ -70,9 +78,10 @@ class Shot:
 
 def _finite(name: str, value: Any) -> float:
     """Return ``value`` as a float; raise InvalidShot unless it is a finite real number."""
-    if isinstance(value, bool) or not hasattr(value, "__float__") or isinstance(value, str):
-        raise InvalidShot(name, value, "must be a finite number")
-    number = float(value)
+    number = math.nan
+    if not isinstance(value, bool) and isinstance(value, numbers.Real):
+        with contextlib.suppress(OverflowError):
+            number = float(value)
     if not math.isfinite(number):
         raise InvalidShot(name, value, "must be a finite number")
     return number

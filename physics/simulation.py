@@ -28,7 +28,8 @@ Floats = NDArray[np.float64]
 
 NO_SHOT: Floats = np.zeros((1, 5))
 NO_TRACE: Floats = np.zeros((1, 0))
-NO_COUNTERS: NDArray[np.int64] = np.zeros((0, 4), np.int64)
+N_COUNTERS = 4
+NO_COUNTERS: NDArray[np.int64] = np.zeros((0, N_COUNTERS), np.int64)
 
 
 class Result:
@@ -147,12 +148,12 @@ def resume(table: Table, snapshot: Snapshot, trace: bool = True) -> Result:
     """Go on from a snapshot, its time counting as 0. There is no cue strike, and ``facts`` count from here.
 
     Raises:
-        InvalidState: the snapshot holds something that is not finite.
+        InvalidState: the snapshot holds what cannot be: see ``Snapshot.refuse_impossible``.
     """
-    states = snapshot.to_states()
-    if not np.isfinite(states).all():
-        raise InvalidState("snapshot", "not finite", "positions, velocities and spins must be finite numbers")
-    return _run(table, states, NO_SHOT, trace)
+    if not isinstance(snapshot, Snapshot):
+        raise InvalidState("snapshot", snapshot, "must be a physics.Snapshot")
+    snapshot.refuse_impossible(table)
+    return _run(table, snapshot.to_states(), NO_SHOT, trace)
 
 
 def _run(table: Table, states: Floats, stroke: Floats, trace: bool) -> Result:

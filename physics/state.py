@@ -10,6 +10,8 @@ from physics.constants import BALL_RADIUS, N_BALLS, PLACEMENT_TOLERANCE
 from physics.errors import InvalidState
 from physics.table import Table
 
+_KEYS = tuple(str(ball) for ball in range(N_BALLS))
+
 
 @final
 class TableState:
@@ -106,9 +108,11 @@ class TableState:
         Raises:
             InvalidState: as for ``from_positions``.
         """
+        if not isinstance(values, Mapping):
+            raise InvalidState("positions", values, "must be a mapping of ball numbers to [x, y]")
         positions = {}
         for key, value in values.items():
-            if not str(key).isdecimal():
+            if key not in _KEYS:
                 raise InvalidState(f"positions[{key!r}]", value, f"balls are numbered 0 to {N_BALLS - 1}")
             positions[int(key)] = value
         return cls.from_positions(positions)
@@ -147,7 +151,10 @@ def _from_mapping(positions: Mapping[int, ArrayLike]) -> NDArray[np.float64]:
 
 
 def _from_array(positions: ArrayLike) -> NDArray[np.float64]:
-    array = np.array(positions, dtype=np.float64)
+    try:
+        array = np.array(positions, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InvalidState("positions", positions, f"must be numbers of shape ({N_BALLS}, 2)") from None
     if array.shape != (N_BALLS, 2):
         raise InvalidState("positions", array.shape, f"must have shape ({N_BALLS}, 2)")
     absent = np.isnan(array)

@@ -21,6 +21,8 @@ from physics.errors import InvalidTable
 Collisions = Literal["consistent", "fastfiz"]
 """Named sets of collision laws; ``docs/physics.md`` gives each with its source."""
 
+_NAMES = ("olympiad", "fastfiz")
+
 _RANGES: dict[str, tuple[float, float]] = {
     "mu_slide": (0.01, 1.0),
     "mu_spin": (0.001, 1.0),
@@ -99,10 +101,17 @@ class Table:
         for name, value in changes.items():
             if name not in names:
                 raise InvalidTable(name, value, f"is not a parameter that can be replaced; these can: {names}")
-            _check_parameter(name, value, mu_slide=changes.get("mu_slide", self.mu_slide))
-        if "mu_slide" in changes:
-            _check_parameter("mu_roll", changes.get("mu_roll", self.mu_roll), mu_slide=changes["mu_slide"])
         return dataclasses.replace(self, **changes)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or self.name not in _NAMES:
+            raise InvalidTable("name", self.name, f"must be one of {_NAMES}")
+        for field in dataclasses.fields(self):
+            value = getattr(self, field.name)
+            if field.name not in _FIXED:
+                _check_parameter(field.name, value, mu_slide=self.mu_slide)
+            elif field.name != "name" and value != field.default:
+                raise InvalidTable(field.name, value, f"is {field.default} on every table there is")
 
     @property
     def ball_radius(self) -> float:
@@ -172,12 +181,14 @@ class Table:
         Raises:
             InvalidTable: unknown table name or parameter, a fixed parameter changed, a value out of range.
         """
+        if not isinstance(values, Mapping):
+            raise InvalidTable("table", values, "must be a mapping of parameters by name")
         name = values.get("name")
-        named = {"olympiad": cls.olympiad, "fastfiz": cls.fastfiz}
-        if name not in named:
-            raise InvalidTable("name", name, f"must be one of {sorted(named)}")
-        base = named[name]()
-        changes = {key: value for key, value in values.items() if getattr(base, key, None) != value}
+        if not isinstance(name, str) or name not in _NAMES:
+            raise InvalidTable("name", name, f"must be one of {_NAMES}")
+        base = cls.olympiad() if name == "olympiad" else cls.fastfiz()
+        fields = {field.name: getattr(base, field.name) for field in dataclasses.fields(base)}
+        changes = {key: value for key, value in values.items() if key not in fields or not _same(fields[key], value)}
         return base.replace(**changes)
 
     @cached_property
@@ -187,10 +198,17 @@ class Table:
         return hashlib.sha256(text.encode()).hexdigest()
 
 
+def _same(known: Any, value: Any) -> bool:
+    """Whether a value is the known number, text or truth value, and of its kind."""
+    return (
+        isinstance(value, bool) == isinstance(known, bool) and isinstance(value, float | int | str) and value == known
+    )
+
+
 def _check_parameter(name: str, value: Any, *, mu_slide: Any) -> None:
     """Raise InvalidTable unless ``value`` is allowed for the replaceable parameter ``name``."""
     if name == "collisions":
-        if value not in get_args(Collisions):
+        if not isinstance(value, str) or value not in get_args(Collisions):
             raise InvalidTable(name, value, f"must be one of {get_args(Collisions)}")
         return
     if name == "cue_test":

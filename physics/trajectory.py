@@ -1,13 +1,16 @@
 """Where every ball is at any time of a shot: exact, from the trace and the closed form."""
 
 import dataclasses
-from typing import Any, Self
+from collections.abc import Sequence
+from typing import Self, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.constants import N_BALLS
+from physics.constants import N_BALLS, PLACEMENT_TOLERANCE
+from physics.errors import InvalidState
 from physics.events import KINDS, BallState, Event, EventKind, Motion
+from physics.state import TableState
 from physics.table import Table
 
 Floats = NDArray[np.float64]
@@ -39,6 +42,36 @@ class Snapshot:
         positions[away] = np.nan
         return cls(time, positions, states[:, 2:4].copy(), states[:, 4:7].copy(), motion)
 
+    def refuse_impossible(self, table: Table) -> None:
+        """Raise InvalidState unless this can be an instant of a shot on ``table``.
+
+        Shapes as above; ``motion`` a ``Motion``; a ball on the table within its cushion and mouth lines, overlapping no
+        other by more than ``PLACEMENT_TOLERANCE``; velocities and spins finite and fitting the motion.
+        """
+        shapes = (self.positions.shape, self.velocities.shape, self.spins.shape, self.motion.shape)
+        if shapes != ((N_BALLS, 2), (N_BALLS, 2), (N_BALLS, 3), (N_BALLS,)):
+            raise InvalidState("snapshot", shapes, "must have shapes (16, 2), (16, 2), (16, 3) and (16,)")
+        for ball, number in enumerate(self.motion.tolist()):
+            if number not in iter(Motion):
+                raise InvalidState(f"motion[{ball}]", number, f"must be one of {[int(motion) for motion in Motion]}")
+        here = np.flatnonzero(self.motion < Motion.POCKETED).tolist()
+        TableState.from_positions({ball: self.positions[ball] for ball in here})
+        for ball in here:
+            if not _within(table, *self.positions[ball].tolist()):
+                raise InvalidState(f"positions[{ball}]", self.positions[ball].tolist(), "must lie on the table")
+            self._refuse_misfit(table, ball)
+
+    def _refuse_misfit(self, table: Table, ball: int) -> None:
+        """Raise InvalidState unless a ball's velocity and spin are finite and such as its motion state has."""
+        (vx, vy), (wx, wy, wz) = self.velocities[ball].tolist(), self.spins[ball].tolist()
+        motion = Motion(int(self.motion[ball]))
+        slips = vx - table.ball_radius * wy != 0.0 or vy + table.ball_radius * wx != 0.0
+        moves = vx != 0.0 or vy != 0.0
+        fits = slips if motion is Motion.SLIDING else moves == (motion is Motion.ROLLING)
+        if not np.isfinite((vx, vy, wx, wy, wz)).all() or not fits:
+            allowed = f"must be finite and those of a ball that is {motion.name.lower()}"
+            raise InvalidState(f"velocities[{ball}], spins[{ball}]", (vx, vy, wx, wy, wz), allowed)
+
     def to_states(self) -> Floats:
         """(1, 128): the kernels' rows, positions in the table's frame."""
         states = np.zeros((N_BALLS, 8))
@@ -49,7 +82,16 @@ class Snapshot:
         return states.reshape(1, -1)
 
 
-class Events:
+def _within(table: Table, x: float, y: float) -> bool:
+    """Whether a centre is no farther out than the cushion and mouth lines, to ``PLACEMENT_TOLERANCE``."""
+    half_x, half_y = 0.5 * table.width, 0.5 * table.length
+    side, end, reach = abs(x - half_x), abs(y - half_y), PLACEMENT_TOLERANCE - table.ball_radius
+    return (
+        side <= half_x + reach and end <= half_y + reach and side + end <= half_x + half_y - table.corner_reach + reach
+    )
+
+
+class Events(Sequence[Event]):
     """The events of a shot: a sequence whose ``Event`` objects are built when read."""
 
     __slots__ = ("_offset", "_rows")
@@ -61,19 +103,23 @@ class Events:
     def __len__(self) -> int:
         return len(self._rows)
 
-    def __getitem__(self, index: Any) -> Any:
-        if isinstance(index, slice):
-            return [self[n] for n in range(*index.indices(len(self)))]
-        position = range(len(self))[index]
-        row = self._rows[position].tolist()
+    @overload
+    def __getitem__(self, index: int) -> Event: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Event]: ...
+
+    def __getitem__(self, index: int | slice) -> Event | list[Event]:
+        places = range(len(self))[index]
+        return self._event(places) if isinstance(places, int) else [self._event(place) for place in places]
+
+    def _event(self, place: int) -> Event:
+        row = self._rows[place].tolist()
         kind, ball, other = KINDS[int(row[1])], int(row[2]), int(row[3])
         states: tuple[BallState, ...] = (self._state(ball, row[4:12]),)
         if kind is EventKind.BALL_COLLISION:
             states = (*states, self._state(other, row[12:20]))
-        return Event(position, row[0], kind, ball, other, states)
-
-    def __iter__(self) -> Any:
-        return (self[n] for n in range(len(self)))
+        return Event(place, row[0], kind, ball, other, states)
 
     def _state(self, ball: int, values: list[float]) -> BallState:
         x, y, vx, vy, wx, wy, wz, motion = values

@@ -43,11 +43,33 @@ from physics.kernels.recording import write_state
 from physics.kernels.resolve.cloth import begin
 from physics.kernels.start import place, put_away, restore
 from physics.kernels.strike import MILLIMETRE, lowest_elevation, obstacle, unplayable
+from physics.kernels.tolerances import TOUCH
 
-entry = numba.njit(error_model="numpy", nogil=True, cache=True)
+entry = numba.njit(error_model="numpy", nogil=True, cache=bool(numba.config.CACHE_DIR))
+"""Compiled for the arrays it is called with; kept where ``physics.engine`` says, if anywhere."""
+
+NUDGES, NUDGE = 16, 1.0 - 2.0**-52
+"""How often, and by what factor, a ball that stopped on a mouth line is drawn towards the centre of the table."""
 
 ABSENT_FROM_START = -2
 """Value of a batch's ``pocket`` for a ball that was not on the table; -1 is one that stayed on it."""
+
+
+@kernel
+def legal_place(p, x, y):
+    """A place in the table's frame, as it reads back from there off the mouth lines; (x, y) from the centre.
+
+    A ball may stop within rounding of a mouth line, and the change of frame may round it onto the line, where no ball
+    may start. Such a one is drawn towards the centre, some 1e-16 m at a time.
+    """
+    half_x, half_y = load(p, P_HALF_X), load(p, P_HALF_Y)
+    for _ in range(NUDGES):
+        out_x, out_y = x + half_x, y + half_y
+        if may_lie(p, out_x - half_x, out_y - half_y, TOUCH):
+            break
+        x *= NUDGE
+        y *= NUDGE
+    return x + half_x, y + half_y
 
 
 @small_kernel
@@ -62,8 +84,10 @@ def collect(p, w, k, start, stride, final):
         x, y = load(start, stride * i), load(start, stride * i + 1)
         new_x, new_y = load(w, X + i), load(w, Y + i)
         still = (new_x == x - half_x) & (new_y == y - half_y)
-        store(final, 2 * i, (x if still else new_x + half_x) if on_table else np.nan)
-        store(final, 2 * i + 1, (y if still else new_y + half_y) if on_table else np.nan)
+        if on_table and not still:
+            x, y = legal_place(p, new_x, new_y)
+        store(final, 2 * i, x if on_table else np.nan)
+        store(final, 2 * i + 1, y if on_table else np.nan)
 
 
 @entry

@@ -76,7 +76,6 @@ def earliest(w, k):
 @kernel
 def pocket(p, w, k, facts, trace, i, time):
     """Ball ``i`` reaches a mouth: it is recorded where it crosses, and out of play."""
-    release(k, i)
     bring(p, w, k, facts, i, time)
     number = load_integer(k, PARTNER + i)
     store_integer(k, MOTION + i, POCKETED)
@@ -146,6 +145,10 @@ def run(p, w, k, facts, facts_float, trace, alive, changed):
         if changed == FAILED:
             break
         predict_all(p, w, k, alive, changed, now)
+    rest = alive
+    while rest != 0:  # else the balls would be left at different times
+        bring(p, w, k, facts, lowest_bit(rest), now)
+        rest &= rest - 1
     return TOO_MANY_EVENTS, now
 
 

@@ -35,7 +35,7 @@ from physics.kernels.layout import (
 from physics.kernels.recording import CUE_BALL, note_contact, note_cushion, record
 from physics.kernels.resolve.ball_ball import approach, normal
 from physics.kernels.resolve.cloth import begin, classify
-from physics.kernels.resolve.cushion import hold, rebound
+from physics.kernels.resolve.cushion import hold, rebound, stop
 from physics.kernels.resolve.impulses import push_alone, push_pairs, settle_slow_pairs
 from physics.kernels.resolve.resting import STOP_BELOW, energy, part_pressed_pairs, returns_at_once, scale_down
 from physics.kernels.resolve.touching import (
@@ -133,6 +133,8 @@ def rebound_approaching(p, w, k, facts, trace, members, time):
 def hold_at_cushions(p, w, k, members, also_returning):
     """Hold the members that approach a cushion softly, or whose own acceleration brings them back at once.
 
+    An approach of at most SLOW_APPROACH is rounding: it is stopped, and costs no spin.
+
     Returns the bit set of them; ``also_returning`` (0 or 1) asks for the second kind.
     """
     changed = 0
@@ -142,9 +144,13 @@ def hold_at_cushions(p, w, k, members, also_returning):
         rest &= rest - 1
         cushion = touched_cushion(p, w, k, i)
         if cushion != NO_CUSHION:
-            soft = 0.0 < towards_cushion(w, cushion, VX, VY, i) <= SOFT_CUSHION
+            speed = towards_cushion(w, cushion, VX, VY, i)
+            soft = SLOW_APPROACH < speed <= SOFT_CUSHION
             if soft or (also_returning != 0 and returns_at_once(p, w, i, cushion)):
                 hold(p, w, i, cushion)
+                changed |= 1 << i
+            elif speed > 0.0:
+                stop(p, w, i, cushion)
                 changed |= 1 << i
     return changed
 

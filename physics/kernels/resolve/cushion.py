@@ -51,6 +51,16 @@ def rebound(p, w, i, cushion):
 
 
 @small_kernel
+def stop(p, w, i, cushion):
+    """An approach that is rounding: no velocity across the cushion; the spin is kept, for it may carry the ball off."""
+    put_on_line(p, w, i, cushion)
+    if cushion <= EAST:
+        store(w, VX + i, 0.0)
+    else:
+        store(w, VY + i, 0.0)
+
+
+@small_kernel
 def hold(p, w, i, cushion):
     """A soft touch: no velocity across the cushion, no spin about its direction; nothing else changes."""
     put_on_line(p, w, i, cushion)
