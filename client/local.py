@@ -54,7 +54,7 @@ def play(
 
     Args:
         agent_a, agent_b: the players of seat 0 and seat 1.
-        games: how many; the break alternates.
+        games: how many, at least 1; the break alternates.
         seed: repeats racks, first breaker, noise and the choices of shipped agents; drawn unless given.
         noise: level, 0 to 5; 1 is the Olympiad's.
         table: the Olympiad's unless given.
@@ -62,7 +62,10 @@ def play(
 
     Raises:
         client.errors.AgentNotFound: a name leads nowhere.
+        ValueError: fewer games than one, a seed or a level of noise that is none.
     """
+    if isinstance(games, bool) or not isinstance(games, int) or games < 1:
+        raise ValueError(f"games = {games!r}: must be an integer >= 1")
     seed = secrets.randbelow(2**32) if seed is None else seed
     hall = _Hall((factory_of(agent_a, seed), factory_of(agent_b, seed)))
     players = titles(_name(agent_a), _name(agent_b))

@@ -25,7 +25,7 @@ TRIES = 20
 end it; with the twentieth nonsense in a row nobody expects sense any more."""
 
 
-class BadAnswer(RefereeError):  # noqa: N818 - what happened, as ``Refused``
+class BadAnswer(RefereeError):
     """A chooser raised (that is then the cause), or returned something that is no action."""
 
 
@@ -72,9 +72,7 @@ class PlayedGame:
 
     def record(self) -> Iterator[str]:
         """The record, line by line."""
-        return record_lines(
-            self.header, ((stroke, None) for stroke in self.strokes), self.outcome, self.seeds
-        )
+        return record_lines(self.header, ((stroke, None) for stroke in self.strokes), self.outcome, self.seeds)
 
 
 def play_game(

@@ -30,15 +30,18 @@ class NoiseModel:
         told: whether the players are told the level.
 
     Raises:
-        ValueError: a level outside [0, 5].
+        ValueError: a level outside [0, 5], or either is of another type.
     """
 
     level: float = 1.0
     told: bool = True
 
     def __post_init__(self) -> None:
-        if not 0.0 <= self.level <= LEVEL_MAX:
+        is_number = isinstance(self.level, int | float) and not isinstance(self.level, bool)
+        if not is_number or not 0.0 <= self.level <= LEVEL_MAX:
             raise ValueError(f"level = {self.level!r}: must be in [0, {LEVEL_MAX}]")
+        if not isinstance(self.told, bool):
+            raise ValueError(f"told = {self.told!r}: must be True or False")
 
     def perturb(self, shot: Shot, seed: bytes, stroke: int) -> Shot:
         """The shot as played.

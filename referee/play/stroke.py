@@ -13,9 +13,10 @@ from referee.game import Action, Game, Refusal, Ruling
 from referee.play.noise import NoiseModel
 from referee.play.seeds import GameSeeds
 from referee.rules import EightBall
+from referee.rules.checks import start_state
 
 
-class Refused(RefereeError):  # noqa: N818 - what happened, as in httpx and python-chess
+class Refused(RefereeError):
     """The referee does not accept an action. Nothing happened: no stroke, no noise drawn; the clock runs on.
 
     Attributes:
@@ -93,10 +94,8 @@ def play_stroke(
         raise Refused(refusals)
     if action.shot is None:
         ruling = rules.apply(game, action, None, None)
-        return Stroke(
-            game.turn, None, action, game.state, None, None, ruling, _racked(rules, ruling, game, seeds)
-        )
-    before = game.state if action.cue_ball is None else game.state.moved(0, action.cue_ball)
+        return Stroke(game.turn, None, action, game.state, None, None, ruling, _racked(rules, ruling, game, seeds))
+    before = start_state(game, action)
     shot = noise.perturb(action.shot, seeds.noise, game.stroke)
     result = simulate(rules.table, before, shot, trace=trace)
     ruling = rules.apply(game, action, result.facts, result.final)

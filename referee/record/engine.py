@@ -1,13 +1,13 @@
 """Which engine made a record: the version, and a digest of the code that decides what happens."""
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from importlib.resources.abc import Traversable
-from typing import Any
+from typing import Any, Self
 
 _DECIDING = ("physics", "referee.game", "referee.rules", "referee.play")
 """Packages whose code a game's course depends on. Any edit there makes another engine: stricter than need be,
@@ -32,6 +32,17 @@ class Engine:
     def to_dict(self) -> dict[str, Any]:
         """Plain values, for the record's header."""
         return {"version": self.version, "digest": self.digest}
+
+    @classmethod
+    def from_dict(cls, values: Any) -> Self:
+        """Read what ``to_dict`` wrote; ValueError if it is anything else."""
+        if (
+            not isinstance(values, Mapping)
+            or set(values) != {"version", "digest"}
+            or not all(isinstance(value, str) for value in values.values())
+        ):
+            raise ValueError("must be an object with the strings version and digest")
+        return cls(**values)
 
 
 @cache

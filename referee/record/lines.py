@@ -114,7 +114,7 @@ class Header:
                 allowance_ns=values["allowance_ns"],
                 commitment=values["commitment"],
                 start=Game.from_dict(values["start"]),
-                engine=Engine(**values["engine"]),
+                engine=Engine.from_dict(values["engine"]),
             )
         except (KeyError, TypeError, AttributeError) as error:
             raise InvalidGame("header", sorted(values), f"a header of format {FORMAT}: {error!r}") from None
@@ -136,16 +136,12 @@ def stroke_entry(stroke: Stroke, entry: int, elapsed_ns: int | None = None) -> d
         "elapsed_ns": elapsed_ns,
         "action": stroke.action.to_dict(),
         **_played(stroke),
-        "ruling": {
-            key: value for key, value in stroke.ruling.to_dict().items() if key not in ("game", "allowed")
-        },
+        "ruling": {key: value for key, value in stroke.ruling.to_dict().items() if key not in ("game", "allowed")},
         "game": stroke.game.to_dict(),
     }
 
 
-def end_entry(
-    entries: int, outcome: Outcome, seeds: GameSeeds, elapsed_ns: Sequence[int] = (0, 0)
-) -> dict[str, Any]:
+def end_entry(entries: int, outcome: Outcome, seeds: GameSeeds, elapsed_ns: Sequence[int] = (0, 0)) -> dict[str, Any]:
     """The object of the last line.
 
     Args:

@@ -10,7 +10,7 @@ from referee.errors import RefereeError
 from referee.record.canonical import parse
 
 
-class InvalidRecord(RefereeError):  # noqa: N818 - named as the physics names its errors
+class InvalidRecord(RefereeError):
     """A record that cannot be read; ``field`` names the line."""
 
 

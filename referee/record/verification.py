@@ -84,7 +84,7 @@ def verify_record(source: str | os.PathLike[str] | Iterable[str]) -> Verificatio
     """
     try:
         record = read_record(source)
-        engine = _read("engine", lambda values: Engine(**values), record.header.get("engine"), 1)
+        engine = _read("engine", Engine.from_dict, record.header.get("engine"), 1)
         if engine != this_engine():
             return Verification(Verdict.OTHER_ENGINE, needs=engine)
         return _Replay(record, Header.from_dict(record.header)).run()
@@ -149,9 +149,7 @@ class _Replay:
         recorded = _read("outcome", Outcome.from_dict, end.get("outcome"), line)
         outcome = game.outcome or self._ended_outside(game, recorded)
         if outcome is None:
-            return Difference(
-                line, None, None, None, "outcome", recorded.to_dict(), "no end: the game goes on"
-            )
+            return Difference(line, None, None, None, "outcome", recorded.to_dict(), "no end: the game goes on")
         derived = plain(end_entry(len(self.record.entries), outcome, self.seeds, elapsed_ns))
         return first_difference(end, derived, line) or outcome
 

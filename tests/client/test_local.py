@@ -99,6 +99,12 @@ def test_noise_and_table_are_those_asked_for():
     assert len(strokes) == len(match.games[0].strokes)
 
 
+@pytest.mark.parametrize("games", [0, -1, True, 1.5, "2"])
+def test_a_match_has_at_least_one_game(games):
+    with pytest.raises(ValueError, match="games = "):
+        client.play(Conceding, Conceding, games=games)
+
+
 @pytest.mark.parametrize("name", ["nobody", "no.such.module:Agent", "client:Pooliad", "client:Nothing"])
 def test_an_agent_that_cannot_be_found_is_named(name):
     with pytest.raises(client.PooliadError, match=name.partition(":")[0]):

@@ -53,6 +53,9 @@ class Potter:
         if view.phase == "break":
             x, y = view.table_model().foot_spot
             return math.degrees(math.atan2(y - cue_y, x - cue_x)), None
+        if not view.callable_balls:  # the 8 alone on an open table: only a safety may be called
+            x, y = state.position(8)
+            return math.degrees(math.atan2(y - cue_y, x - cue_x)), "safety"
         ball = view.callable_balls[self.stream.below(len(view.callable_balls))]
         pocket = self.stream.below(6)
         (x, y), mouth = state.position(ball), view.table_model().mouths[pocket]

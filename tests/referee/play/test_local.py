@@ -92,9 +92,7 @@ def test_the_level_is_shown_only_when_told():
     assert {view.noise.level for view in first.views} == {None}
 
 
-@pytest.mark.parametrize(
-    ("player", "reason"), [(raises, RuntimeError), (nonsense, BadAnswer), (refused, Refused)]
-)
+@pytest.mark.parametrize(("player", "reason"), [(raises, RuntimeError), (nonsense, BadAnswer), (refused, Refused)])
 def test_bad_actions_are_told_tried_again_and_in_the_end_forfeit_the_game(player, reason):
     bad = []
     game = game_of(player, Potter("b"), watch=Watch(on_refusal=bad.append))

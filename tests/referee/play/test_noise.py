@@ -51,9 +51,7 @@ def test_order_and_sigmas_are_the_olympiads():
     assert noisy.v == SHOT.v + 2.0 * 0.075 * z[4]
 
 
-@pytest.mark.parametrize(
-    ("name", "sigma"), [("a", 0.5), ("b", 0.5), ("theta", 0.1), ("phi", 0.125), ("v", 0.075)]
-)
+@pytest.mark.parametrize(("name", "sigma"), [("a", 0.5), ("b", 0.5), ("theta", 0.1), ("phi", 0.125), ("v", 0.075)])
 def test_noise_is_gaussian_and_independent_between_strokes(name, sigma):
     noisy = [NoiseModel(1.0).perturb(SHOT, SEED, stroke) for stroke in range(2_000)]
     errors = np.array([getattr(shot, name) - getattr(SHOT, name) for shot in noisy]) / sigma
@@ -119,3 +117,15 @@ def test_a_tip_off_the_ball_is_a_possible_result():
 def test_levels_outside_zero_to_five_are_refused(level):
     with pytest.raises(ValueError, match=r"must be in \[0, 5.0\]"):
         NoiseModel(level)
+
+
+@pytest.mark.parametrize("level", ["x", True, None, [1.0], 1j, float("nan"), -0.1, 5.1])
+def test_a_level_that_is_none_is_named(level):
+    with pytest.raises(ValueError, match="level = "):
+        NoiseModel(level)
+
+
+@pytest.mark.parametrize("told", [None, 1, "no"])
+def test_told_is_yes_or_no(told):
+    with pytest.raises(ValueError, match="told = "):
+        NoiseModel(1.0, told)

@@ -184,6 +184,4 @@ def test_nothing_that_yields_noise_is_in_the_game_or_the_stroke():
 def test_whoever_searches_ahead_brings_seeds_of_their_own():
     own = GameSeeds(bytes(32), bytes(32))
     game = start_game(RULES, SEEDS)
-    assert (
-        play_stroke(RULES, game, BREAK, own, NOISY).shot != play_stroke(RULES, game, BREAK, SEEDS, NOISY).shot
-    )
+    assert play_stroke(RULES, game, BREAK, own, NOISY).shot != play_stroke(RULES, game, BREAK, SEEDS, NOISY).shot

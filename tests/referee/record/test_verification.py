@@ -361,3 +361,11 @@ def test_decisions_and_new_racks_are_part_of_the_record():
     difference = verify_record([*lines[:2], json.dumps(second), *lines[3:]]).difference
     assert (difference.line, difference.stroke, difference.ball) == (3, None, 3)
     assert difference.field == "game.state.3[0]"
+
+
+@pytest.mark.parametrize("engine", [None, "0.1.0", [], {"version": "0.1.0"}, {"version": 1, "digest": "ab"}])
+def test_an_engine_that_is_none_is_said_in_words(engine):
+    verification = verify_record(tampered((0, "engine"), engine))
+    assert verification.verdict is Verdict.MALFORMED
+    assert "line 1, engine" in verification.problem
+    assert "strings version and digest" in verification.problem
