@@ -7,9 +7,7 @@ from pydantic import ConfigDict, Field, StringConstraints
 
 from referee.wire.values import Identifier, Message, Request
 
-AgentName = Annotated[
-    str, StringConstraints(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.-]*$")
-]
+AgentName = Annotated[str, StringConstraints(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.-]*$")]
 
 
 class AgentRequest(Request):

@@ -96,9 +96,7 @@ class MinElevationRequest(Request):
     """``POST /v1/min-elevation``: the least elevation of the cue at which a shot can be played."""
 
     model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"table": "olympiad", "balls": _BALLS, "phi": 260.0, "a": 0.0, "b": 3.0}]
-        }
+        json_schema_extra={"examples": [{"table": "olympiad", "balls": _BALLS, "phi": 260.0, "a": 0.0, "b": 3.0}]}
     )
 
     table: Annotated[TableValues, Field(validate_default=True)] = "olympiad"  # type: ignore[assignment]

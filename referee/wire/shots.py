@@ -93,9 +93,7 @@ class ShotRequest(Request):
         """The request that asks for this action; it must hold a shot."""
         if action.shot is None:
             raise ValueError(f"action.shot = None: a decision is no shot: {action!r}")
-        return cls(
-            shot=ShotParameters.of(action.shot), call=_from_call(action.call), cue_ball=action.cue_ball
-        )
+        return cls(shot=ShotParameters.of(action.shot), call=_from_call(action.call), cue_ball=action.cue_ball)
 
 
 class DecisionRequest(Request):
