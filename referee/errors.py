@@ -30,9 +30,9 @@ class RefereeError(ValueError):
         return type(self), (self.field, self.value, self.allowed)
 
 
-class InvalidAction(RefereeError):  # noqa: N818 - named like the physics' InvalidShot
+class InvalidAction(RefereeError):
     """Not a well-formed action, or an action given to ``apply`` that the game does not await."""
 
 
-class InvalidGame(RefereeError):  # noqa: N818
+class InvalidGame(RefereeError):
     """Game data (from a file, from the wire) that does not describe a game."""

@@ -31,9 +31,7 @@ def must_strike_a_ball(stroke: Stroke) -> Finding:
 def balls_driven(stroke: Stroke) -> tuple[int, ...]:
     """R9: the different object balls driven to a cushion; a pocketed ball counts, the cue ball never."""
     facts = stroke.facts
-    return tuple(
-        ball for ball in range(1, 16) if facts.cushion[ball] != NEVER or facts.pocketed[ball] != NEVER
-    )
+    return tuple(ball for ball in range(1, 16) if facts.cushion[ball] != NEVER or facts.pocketed[ball] != NEVER)
 
 
 def legal_break(stroke: Stroke) -> bool:
@@ -102,8 +100,7 @@ def breaker_continues(stroke: Stroke) -> Finding:
     """R10: after a legal break without a foul the breaker goes on if a ball fell."""
     facts = stroke.facts
     return tuple(
-        Evidence("R10", (facts.pocketed[ball],), ball=ball, pocket=facts.pocket[ball])
-        for ball in stroke.pocketed
+        Evidence("R10", (facts.pocketed[ball],), ball=ball, pocket=facts.pocket[ball]) for ball in stroke.pocketed
     )
 
 

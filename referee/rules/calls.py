@@ -92,6 +92,4 @@ def _other_balls(stroke: Stroke, rule: str) -> Finding:
     call, facts = stroke.action.call, stroke.facts
     called = call.ball if isinstance(call, Call) else None
     others = (ball for ball in stroke.pocketed if ball != called)
-    return tuple(
-        Evidence(rule, (facts.pocketed[ball],), ball=ball, pocket=facts.pocket[ball]) for ball in others
-    )
+    return tuple(Evidence(rule, (facts.pocketed[ball],), ball=ball, pocket=facts.pocket[ball]) for ball in others)

@@ -75,9 +75,7 @@ class EightBall:
             raise InvalidAction("action", action, "a referee.Action")
         return check_action(self.table, game, action)
 
-    def apply(
-        self, game: Game, action: Action, facts: Facts | None = None, final: TableState | None = None
-    ) -> Ruling:
+    def apply(self, game: Game, action: Action, facts: Facts | None = None, final: TableState | None = None) -> Ruling:
         """Rule on an action that ``check`` accepts.
 
         Args:
@@ -125,9 +123,7 @@ class EightBall:
         if game.is_over:
             raise InvalidGame("phase", game.phase.value, "a game that is not over")
         if reason not in (*FROM_OUTSIDE, EndReason.ABORTED):
-            raise InvalidGame(
-                "reason", reason, f"one of {[str(one) for one in (*FROM_OUTSIDE, EndReason.ABORTED)]}"
-            )
+            raise InvalidGame("reason", reason, f"one of {[str(one) for one in (*FROM_OUTSIDE, EndReason.ABORTED)]}")
         if loser not in ((None,) if reason is EndReason.ABORTED else (0, 1)):
             raise InvalidGame("loser", loser, "seat 0 or 1, and None when the game is aborted")
         after = over(game, Outcome(None if loser is None else 1 - loser, reason, "R48"))

@@ -46,9 +46,7 @@ def refuse_placement(table: Table, game: Game, place: Point | None) -> list[Refu
         refusals.append(_refusal(place, f"behind the head string: y greater than {table.head_string}"))
     for ball in overlapped_balls(table, game, place):
         where = game.state.position(ball)
-        refusals.append(
-            _refusal(place, f"clear of ball {ball} at {where}: touching counts as overlap", "R40")
-        )
+        refusals.append(_refusal(place, f"clear of ball {ball} at {where}: touching counts as overlap", "R40"))
     return refusals
 
 

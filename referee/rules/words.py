@@ -98,9 +98,7 @@ def _attempt(stroke: Stroke) -> str:
 def _others(stroke: Stroke) -> list[str]:
     made = {one.ball for one in called_ball_made(stroke)}
     pocket = stroke.facts.pocket
-    return [
-        f"{ball_name(ball)} in {pocket_name(pocket[ball])}" for ball in stroke.pocketed if ball not in made
-    ]
+    return [f"{ball_name(ball)} in {pocket_name(pocket[ball])}" for ball in stroke.pocketed if ball not in made]
 
 
 def _foul(stroke: Stroke, rule: str) -> str:

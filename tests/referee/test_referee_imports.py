@@ -40,9 +40,7 @@ PUBLIC = {
 
 def test_import_loads_no_numba_scipy_or_pydantic() -> None:
     code = "import sys, referee; print(*sorted({name.split('.')[0] for name in sys.modules}))"
-    loaded = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    ).stdout.split()
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     assert "referee" in loaded
     assert not {"numba", "llvmlite", "scipy", "pydantic", "fastapi", "sqlalchemy"} & set(loaded)
 

@@ -43,12 +43,7 @@ class Played:
 
     def proof(self, rule: str) -> list[physics.Event]:
         """The events cited for a rule."""
-        return [
-            self.result.events[event]
-            for one in self.ruling.evidence
-            if one.rule == rule
-            for event in one.events
-        ]
+        return [self.result.events[event] for one in self.ruling.evidence if one.rule == rule for event in one.events]
 
 
 def situation(balls: Balls, phase: Phase = Phase.PLAY, **fields: Any) -> Game:

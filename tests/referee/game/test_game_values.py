@@ -29,9 +29,7 @@ SHOT = Shot(3.0, 270.0, 5.0)
 STATE = TableState.from_positions({0: (0.5, 1.7), 3: (0.4, 0.6)})
 GAMES = [
     Game(STATE, Phase.BREAK, 1, 1, cue_ball_in_hand=CueBallArea.KITCHEN),
-    Game(
-        STATE, Phase.PLAY, 0, 1, (Group.STRIPES, Group.SOLIDS), CueBallArea.ANYWHERE, stroke=7, dry_visits=3
-    ),
+    Game(STATE, Phase.PLAY, 0, 1, (Group.STRIPES, Group.SOLIDS), CueBallArea.ANYWHERE, stroke=7, dry_visits=3),
     Game(STATE, Phase.DECISION, 0, 1, decisions=(Decision.SPOT_EIGHT,), choice="R13", visit_strokes=1),
     Game(STATE, Phase.RERACK, 0, 1, replays=1, rack=2),
     Game(STATE, Phase.OVER, 0, 1, outcome=Outcome(None, EndReason.STALEMATE, "R49")),

@@ -74,9 +74,7 @@ def test_one_ball_round_the_table_does_not_make_a_break_legal() -> None:
 def test_legal_break_with_a_ball_lets_the_breaker_go_on() -> None:
     """R10, R18."""
     played = next(
-        one
-        for one in breaks()
-        if objects_pocketed(one) and not one.ruling.fouls and 8 not in objects_pocketed(one)
+        one for one in breaks() if objects_pocketed(one) and not one.ruling.fouls and 8 not in objects_pocketed(one)
     )
     assert played.ruling.rules[0] == "R10"
     assert (played.game.phase, played.game.turn, played.game.groups) == (Phase.PLAY, 0, None)
@@ -127,9 +125,7 @@ def test_accepting_an_illegal_break_gives_no_ball_in_hand() -> None:
     assert game.state == played.result.final
 
 
-@pytest.mark.parametrize(
-    ("decision", "breaker"), [(Decision.RERACK_AND_BREAK, 1), (Decision.OPPONENT_RERACKS, 0)]
-)
+@pytest.mark.parametrize(("decision", "breaker"), [(Decision.RERACK_AND_BREAK, 1), (Decision.OPPONENT_RERACKS, 0)])
 def test_reracks(decision: Decision, breaker: int) -> None:
     """R12: who breaks the new rack; the game asks its driver for one."""
     played = racked_break(1, 0.9)

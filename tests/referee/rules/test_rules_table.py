@@ -70,9 +70,7 @@ def test_predicate_and_test_exist_and_name_the_rule(row: list[str]) -> None:
     rule, _, predicate, test, how = row
     assert names_rule(resolve(predicate).__doc__, rule)
     function = test_function(test, TESTS / "rules")
-    module_doc = (
-        ast.get_docstring(ast.parse((TESTS / "rules" / f"{test.split('.')[0]}.py").read_text())) or ""
-    )
+    module_doc = ast.get_docstring(ast.parse((TESTS / "rules" / f"{test.split('.')[0]}.py").read_text())) or ""
     assert names_rule(ast.get_docstring(function) or module_doc, rule)
     assert how in HOW
 
@@ -81,9 +79,7 @@ def test_predicate_and_test_exist_and_name_the_rule(row: list[str]) -> None:
 def test_simulated_means_simulated(row: list[str]) -> None:
     """The test reaches ``physics.simulate``, by itself or through a helper of its file."""
     helpers = {"play", "simulate", "racked_break", "breaks", "from_kitchen", "miscue", "visits"}
-    names = {
-        node.id for node in ast.walk(test_function(row[3], TESTS / "rules")) if isinstance(node, ast.Name)
-    }
+    names = {node.id for node in ast.walk(test_function(row[3], TESTS / "rules")) if isinstance(node, ast.Name)}
     assert helpers & names
 
 

@@ -72,9 +72,7 @@ def test_cue_ball_on_the_spot_keeps_the_stated_gap() -> None:
 
 
 def test_place_may_be_frozen_to_the_foot_cushion() -> None:
-    wall = {
-        ball: (X, R + (row + 1) * 2 * R * 1.0001) for row, ball in enumerate((1, 2, 3, 4, 5, 6, 7, 9, 10))
-    }
+    wall = {ball: (X, R + (row + 1) * 2 * R * 1.0001) for row, ball in enumerate((1, 2, 3, 4, 5, 6, 7, 9, 10))}
     assert spotted(wall)[1] == pytest.approx(wall[1][1] - 2 * R, abs=1e-15)
     assert spotted(wall)[1] >= R
 

@@ -114,9 +114,7 @@ def test_limits_are_configurable() -> None:
     assert last.outcome.reason is EndReason.STALEMATE
 
 
-@pytest.mark.parametrize(
-    ("field", "value"), [("dry_visits", 0), ("replays", -1), ("strokes", 1.5), ("strokes", True)]
-)
+@pytest.mark.parametrize(("field", "value"), [("dry_visits", 0), ("replays", -1), ("strokes", 1.5), ("strokes", True)])
 def test_bad_limits(field: str, value: object) -> None:
     with pytest.raises(InvalidGame, match=field):
         Limits(**{field: value})  # type: ignore[arg-type]
