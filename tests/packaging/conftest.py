@@ -1,4 +1,4 @@
-"""The built wheel, installed in environments of its own outside the checkout. Built once a session."""
+"""The built wheel, installed in environments of its own outside the checkout; once a session and worker."""
 
 import os
 import subprocess

@@ -22,8 +22,6 @@ from typing import Any
 import pytest
 from support.require import ROOT, require
 
-pytestmark = pytest.mark.xdist_group("packaging")
-
 TEXT = re.sub(r"\\\n\s*", "", (ROOT / "Dockerfile").read_text(encoding="utf-8"))
 INSTRUCTIONS = re.findall(r"^([A-Z]+) (.+)$", TEXT, re.MULTILINE)
 STARTS_WITHIN = 60.0

@@ -9,7 +9,6 @@ import pytest
 from support.documents import PAGES, python_blocks
 from support.require import ROOT
 
-pytestmark = pytest.mark.xdist_group("packaging")
 PACKAGES = ("physics", "referee", "server", "client")
 BY_THE_RULES = {"R42", "R43", "R44", "R45", "R46"}
 
