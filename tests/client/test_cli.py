@@ -86,7 +86,7 @@ def test_simulate_on_another_table():
         (["--v", "2", "--phi", "0", "--balls", "{"], "not JSON"),
         (["--v", "2", "--phi", "0", "--balls", "@/nowhere/at/all"], "/nowhere/at/all"),
         (["--v", "2", "--phi", "0", "--balls", POSITION, "--table", "snooker"], "snooker"),
-        (["--v", "2", "--phi", "0", "--balls", "3:0.4,0.6"], "cannot be played"),
+        (["--v", "2", "--phi", "0", "--balls", "3:0.4,0.6"], "there must be a cue ball"),
         (["--v", "2", "--phi", "90", "--theta", "0", "--balls", "0:0.5,0.03"], "cannot be played"),
         (["--v", "2", "--phi", "0", "--a", "40", "--balls", POSITION], "a^2 + b^2"),
         (["--v", "2", "--phi", "0", "--balls", "0:0.5,1 3:0.442849,1"], "every elevation"),

@@ -49,7 +49,10 @@ CASES: dict[str, tuple[type[PhysicsError], Callable[[], object]]] = {
     "snapshot off the table": (InvalidState, changed(positions=FLIGHT.positions + 9.0)),
     "snapshot, unknown motion": (InvalidState, changed(motion=np.full(16, 9, np.int8))),
     "snapshot, moving at rest": (InvalidState, changed(motion=np.where(FLIGHT.motion < 4, 0, FLIGHT.motion))),
-    "snapshot, rolling at rest": (InvalidState, changed(velocities=np.zeros((16, 2)))),
+    "snapshot, rolling at rest": (
+        InvalidState,
+        changed(velocities=np.zeros((16, 2)), motion=np.where(FLIGHT.motion < 4, 3, FLIGHT.motion)),
+    ),
     "snapshot, infinite spin": (InvalidState, changed(spins=np.full((16, 3), np.inf))),
     "snapshot, wrong shape": (InvalidState, changed(spins=np.zeros(3))),
 }

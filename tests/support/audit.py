@@ -39,7 +39,7 @@ def moved(table: physics.Table, state: physics.BallState, t: float) -> physics.B
         pull = table.mu_slide * GRAVITY / math.hypot(ux, uy)
         ax, ay = -pull * ux, -pull * uy
         wx, wy = wx + 2.5 / RADIUS * t * ay, wy - 2.5 / RADIUS * t * ax
-    elif state.motion.name == "ROLLING":
+    elif state.motion.name == "ROLLING" and (vx, vy) != (0.0, 0.0):  # 0 just before its own end, at another's event
         pull = table.mu_roll * GRAVITY / math.hypot(vx, vy)
         ax, ay = -pull * vx, -pull * vy
         wx, wy = -(vy + ay * t) / RADIUS, (vx + ax * t) / RADIUS
