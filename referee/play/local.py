@@ -1,15 +1,16 @@
 """Whole games and matches in one process, without server and clock: for local play, tests and experiments."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from referee.errors import RefereeError
 from referee.game import Action, EndReason, Game, Outcome
+from referee.play.clock import SECOND_NS, Clocks
 from referee.play.noise import NoiseModel
 from referee.play.seeds import GameSeeds, MatchSeed
 from referee.play.stroke import Refused, Stroke, play_stroke, start_game
-from referee.record import Header, record_lines
+from referee.record import Header, canonical, end_entry, record_lines, stroke_entry
 from referee.rules import EightBall
 from referee.wire import ClockView, GameTerms, NoiseView, StrokeView, View
 from referee.wire.strokes import since_own_last
@@ -27,6 +28,27 @@ end it; with the twentieth nonsense in a row nobody expects sense any more."""
 
 class BadAnswer(RefereeError):
     """A chooser raised (that is then the cause), or returned something that is no action."""
+
+
+class Lost(Exception):
+    """Raised by a chooser: its player is out of this game, for a reason of R48 (crash, stall, time-out, ...)."""
+
+    def __init__(self, reason: EndReason) -> None:
+        super().__init__(reason.value)
+        self.reason = reason
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """Clocks for a local game, read from a time that is handed in: the referee itself knows none.
+
+    Attributes:
+        allowance_ns: for each player.
+        now: nanoseconds that only grow; they are read before and after a player is asked.
+    """
+
+    allowance_ns: int
+    now: Callable[[], int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,10 +72,12 @@ class Watch:
     Attributes:
         on_stroke: after every stroke and decision.
         on_refusal: after every bad action.
+        on_line: every line of the record but the last, the moment it is final; the first before the break.
     """
 
     on_stroke: Callable[[Stroke], Any] = lambda stroke: None
     on_refusal: Callable[[BadAction], Any] = lambda bad: None
+    on_line: Callable[[str], Any] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,16 +87,25 @@ class PlayedGame:
     Attributes:
         header: its terms. strokes: strokes and decisions in order. outcome: the result.
         seeds: revealed, the game being over.
+        elapsed_ns: thinking time of each stroke and decision; Nones without clocks.
+        after_ns: thinking time after the last of them, by seat.
     """
 
     header: Header
     strokes: tuple[Stroke, ...]
     outcome: Outcome
     seeds: GameSeeds
+    elapsed_ns: tuple[int | None, ...]
+    after_ns: tuple[int, int] = (0, 0)
 
     def record(self) -> Iterator[str]:
         """The record, line by line."""
-        return record_lines(self.header, ((stroke, None) for stroke in self.strokes), self.outcome, self.seeds)
+        timed = zip(self.strokes, self.elapsed_ns, strict=True)
+        return record_lines(self.header, timed, self.outcome, self.seeds, self.after_ns)
+
+    def last_line(self) -> str:
+        """The record's last line, which completes those that ``Watch.on_line`` was told."""
+        return canonical(end_entry(len(self.strokes), self.outcome, self.seeds, self.after_ns))
 
 
 def play_game(
@@ -87,11 +120,14 @@ def play_game(
     games: int = 1,
     score: tuple[float, float] = (0.0, 0.0),
     watch: Watch | None = None,
+    match: str = "local",
+    game: str | None = None,
+    timing: Timing | None = None,
 ) -> PlayedGame:
     """Play one game to its end.
 
     A chooser that raises, answers nonsense or is refused is asked again; after ``TRIES`` bad answers in a row
-    the game is forfeit.
+    the game is forfeit. One that raises ``Lost`` loses at once.
 
     Args:
         rules: the referee, on its table.
@@ -102,6 +138,8 @@ def play_game(
         players: names, by seat.
         number, games, score: of the match, for the views.
         watch: who is told what.
+        match, game: their ids in views and record; the game's is ``local-NUMBER`` unless given.
+        timing: clocks; None plays without.
     """
     start = start_game(rules, seeds, breaker)
     header = Header.of(
@@ -109,12 +147,13 @@ def play_game(
         start,
         seeds,
         noise,
-        game=f"local-{number}",
-        match="local",
+        game=game or f"local-{number}",
+        match=match,
         number=number,
         players=players,
+        allowance_ns=timing.allowance_ns if timing else None,
     )
-    return _Table(header, chairs, seeds, _terms(header, games), score, watch or Watch()).play()
+    return _Table(header, chairs, seeds, _terms(header, games), score, watch or Watch(), timing).play()
 
 
 def play_match(
@@ -172,26 +211,49 @@ class _Table:
     terms: GameTerms
     score: tuple[float, float]
     watch: Watch
+    timing: Timing | None
+    strokes: list[Stroke] = field(default_factory=list)
+    history: list[StrokeView] = field(default_factory=list)
+    elapsed: list[int | None] = field(default_factory=list)
+    clocks: Clocks | None = None
 
     def play(self) -> PlayedGame:
         """Play to the end."""
-        game = self.header.start
-        strokes: list[Stroke] = []
-        history: list[StrokeView] = []
+        game, after_ns = self.header.start, (0, 0)
+        self.clocks = Clocks(self.timing.allowance_ns) if self.timing else None
+        self._tell(self.header.to_dict)
         while game.outcome is None:
-            stroke = self._turn(game, history)
-            if stroke is None:
-                game = self.header.rules.end(game, EndReason.FORFEIT, game.turn).game
-                continue
-            history.append(StrokeView.of(stroke, len(strokes)))
-            strokes.append(stroke)
-            self.watch.on_stroke(stroke)
-            game = stroke.game
-        return PlayedGame(self.header, tuple(strokes), game.outcome, self.seeds)
+            started = self._now()
+            try:
+                stroke = self._turn(game)
+                elapsed = self._now() - started
+                self._require_time(game.turn, elapsed)
+            except Lost as lost:
+                last = self._now() - started
+                after_ns = (last, 0) if game.turn == 0 else (0, last)
+                game = self.header.rules.end(game, lost.reason, game.turn).game
+            else:
+                game = self._kept(stroke, elapsed)
+        return PlayedGame(
+            self.header, tuple(self.strokes), game.outcome, self.seeds, tuple(self.elapsed), after_ns
+        )  # fmt: skip
 
-    def _turn(self, game: Game, history: list[StrokeView]) -> Stroke | None:
-        """The stroke of the player in turn; None after too many bad actions."""
-        view = self._view(game, history)
+    def _kept(self, stroke: Stroke, elapsed: int) -> Game:
+        """The game after a stroke that stands, its time charged."""
+        charged = elapsed if self.clocks else None
+        if self.clocks:
+            self.clocks = self.clocks.charged(stroke.seat, elapsed)
+        number = len(self.strokes)
+        self.history.append(StrokeView.of(stroke, number))
+        self.strokes.append(stroke)
+        self.elapsed.append(charged)
+        self._tell(lambda: stroke_entry(stroke, number, charged))
+        self.watch.on_stroke(stroke)
+        return stroke.game
+
+    def _turn(self, game: Game) -> Stroke:
+        """The stroke of the player in turn; raises ``Lost``, after too many bad actions too."""
+        view = self._view(game)
         for attempt in range(1, TRIES + 1):
             try:
                 action = self._asked(game.turn, view)
@@ -199,32 +261,48 @@ class _Table:
             except (BadAnswer, Refused) as error:
                 reason = error.__cause__ if isinstance(error.__cause__, Exception) else error
                 self.watch.on_refusal(BadAction(game.turn, attempt, reason))
-        return None
+        raise Lost(EndReason.FORFEIT)
 
     def _asked(self, seat: int, view: View) -> Action:
         """What the player of ``seat`` says, whatever else its code may do."""
         try:
             action = self.chairs[seat](view)
+        except Lost:
+            raise
         except Exception as error:
             raise BadAnswer("choose", type(error).__name__, "must return an Action") from error
         if not isinstance(action, Action):
             raise BadAnswer("choose", action, "must return an Action")
         return action
 
-    def _view(self, game: Game, history: list[StrokeView]) -> View:
+    def _now(self) -> int:
+        return self.timing.now() if self.timing else 0
+
+    def _require_time(self, seat: int, elapsed: int) -> None:
+        """Raise ``Lost`` when the answer came too late; exactly zero left is too late."""
+        if self.clocks and self.clocks.charged(seat, elapsed).is_out_of_time(seat):
+            raise Lost(EndReason.TIME_OUT)
+
+    def _tell(self, line: Callable[[], dict[str, Any]]) -> None:
+        """Hand a line of the record to whoever wants it."""
+        if self.watch.on_line:
+            self.watch.on_line(canonical(line()))
+
+    def _view(self, game: Game) -> View:
         seat = game.turn
         return View.of(
             self.terms,
             game,
             seat=seat,
-            version=len(history),
-            clocks=(
-                ClockView(seconds_left=None, running=seat == 0),
-                ClockView(seconds_left=None, running=seat == 1),
-            ),
+            version=len(self.history),
+            clocks=(self._clock(0, seat), self._clock(1, seat)),
             score=self.score,
-            strokes_since=since_own_last(history, seat),
+            strokes_since=since_own_last(self.history, seat),
         )
+
+    def _clock(self, seat: int, turn: int) -> ClockView:
+        left = self.clocks.remaining_ns(seat) / SECOND_NS if self.clocks else None
+        return ClockView(seconds_left=left, running=seat == turn)
 
 
 def _terms(header: Header, games: int) -> GameTerms:

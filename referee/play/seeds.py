@@ -73,11 +73,17 @@ class MatchSeed:
         """Read 64 hexadecimal digits."""
         return cls(seed_from_hex(text))
 
-    def game(self, number: int) -> GameSeeds:
-        """The secrets of the ``number``-th game, from 0."""
+    def game(self, number: int, *, pairs: bool = False) -> GameSeeds:
+        """The secrets of the ``number``-th game, from 0.
+
+        With ``pairs``, games 0 and 1, 2 and 3, ... have the same racks (those of the even one): with the break
+        alternating, both players get the same start. The noise is every game's own all the same, else the second
+        game of a pair could be played with the first one's noise known.
+        """
+        racked_as = number - number % 2 if pairs else number
         return GameSeeds(
             noise=_derive(self.secret, f"pooliad/1 game {number} noise"),
-            racks=_derive(self.secret, f"pooliad/1 game {number} racks"),
+            racks=_derive(self.secret, f"pooliad/1 game {racked_as} racks"),
         )
 
     @property

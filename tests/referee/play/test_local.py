@@ -1,5 +1,6 @@
 """Whole games and matches without a server."""
 
+import itertools
 from dataclasses import dataclass, field
 
 import pytest
@@ -8,8 +9,9 @@ from support.players import Potter
 from physics import Shot, Table
 from referee.game import Action, EndReason, Outcome
 from referee.play import MatchSeed, NoiseModel
-from referee.play.local import TRIES, BadAnswer, Watch, play_game, play_match, points_of
+from referee.play.local import TRIES, BadAnswer, Lost, Timing, Watch, play_game, play_match, points_of
 from referee.play.stroke import Refused
+from referee.record import verify_record
 from referee.rules import EightBall
 
 RULES = EightBall(Table.olympiad())
@@ -120,6 +122,49 @@ def test_leaving_is_not_a_bad_action():
 
     with pytest.raises(KeyboardInterrupt):
         game_of(interrupted, Potter("b"))
+
+
+def ticking(nanoseconds):
+    """A time that goes on by so much at every look."""
+    times = itertools.count(0, nanoseconds)
+    return lambda: next(times)
+
+
+def test_every_answer_is_charged_and_shown_and_recorded():
+    spy = Spy(Potter("a"))
+    game = game_of(spy, Potter("b"), timing=Timing(10**12, ticking(10**9)))
+    assert set(game.elapsed_ns) == {10**9}
+    left = [view.clocks[0].seconds_left for view in spy.views]
+    assert left == [1000.0 - number for number in range(len(left))]
+    assert verify_record(game.record()).ok
+
+
+def test_a_clock_at_exactly_zero_loses_and_the_record_proves_it():
+    """R48, docs/protocol.md: exactly zero left is out of time."""
+    game = game_of(Potter("a"), Potter("b"), timing=Timing(3 * 10**9, ticking(10**9)))
+    assert game.outcome.reason is EndReason.TIME_OUT
+    used = sum(
+        ns for ns, stroke in zip(game.elapsed_ns, game.strokes, strict=True) if stroke.seat == 1 - game.outcome.winner
+    )
+    assert used + max(game.after_ns) >= 3 * 10**9
+    assert verify_record(game.record()).ok
+
+
+@pytest.mark.parametrize("reason", [EndReason.CRASH, EndReason.STALL, EndReason.TIME_OUT, EndReason.FORFEIT])
+def test_a_player_who_is_out_loses_for_its_own_reason(reason):
+    def out(_view):
+        raise Lost(reason)
+
+    game = game_of(out, Potter("b"))
+    assert game.outcome == Outcome(1, reason, "R48")
+    assert game.strokes == ()
+
+
+def test_the_lines_told_as_they_happen_are_the_record():
+    lines = []
+    game = game_of(Potter("a"), Potter("b"), watch=Watch(on_line=lines.append), match="m", game="g")
+    assert [*lines, game.last_line()] == list(game.record())
+    assert (game.header.match, game.header.game) == ("m", "g")
 
 
 def test_a_match_alternates_the_break_and_keeps_the_score():

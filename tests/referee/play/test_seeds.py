@@ -31,6 +31,16 @@ def test_golden_values():
     assert MatchSeed.of(7).secret.hex() == "f3e8c0df86a964bbb2379ca0c681d81eb00f168ea92210d35bebb0e656ea2819"
 
 
+def test_the_games_of_a_pair_share_their_racks_and_never_their_noise():
+    games = [SEED.game(number, pairs=True) for number in range(6)]
+    for even, odd in zip(games[::2], games[1::2], strict=True):
+        assert even.racks == odd.racks
+        assert even.noise != odd.noise
+    assert len({game.racks for game in games}) == 3
+    assert [game.noise for game in games] == [SEED.game(number).noise for number in range(6)]
+    assert [SEED.breaker(n) for n in (0, 2, 4)] == [1 - SEED.breaker(n) for n in (1, 3, 5)]
+
+
 def test_no_two_derivations_are_equal():
     games = [SEED.game(number) for number in range(20)]
     derived = [seeds.noise for seeds in games] + [seeds.racks for seeds in games]
