@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from client.local import LocalMatch, play
     from client.retry import Retry
     from client.run import run_agent
-    from referee import SAFETY, Action, Call, Decision
+    from client.simulator import Simulator
+    from referee import SAFETY, Action, BudgetSpent, Call, Decision
     from referee.wire import GameOver, MatchRequest, View
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "Agent",
     "AgentFactory",
     "AsyncPooliad",
+    "BudgetSpent",
     "Call",
     "Decision",
     "GameOver",
@@ -34,6 +36,7 @@ __all__ = [
     "Pooliad",
     "PooliadError",
     "Retry",
+    "Simulator",
     "View",
     "load",
     "play",
@@ -51,8 +54,10 @@ _HOMES = {
     "play": "client.local",
     "Retry": "client.retry",
     "run_agent": "client.run",
+    "Simulator": "client.simulator",
     "SAFETY": "referee",
     "Action": "referee",
+    "BudgetSpent": "referee",
     "Call": "referee",
     "Decision": "referee",
     "GameOver": "referee.wire",

@@ -2,7 +2,9 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from functools import cached_property
 
+from client.simulator import Simulator
 from referee import Action
 from referee.wire import GameOver, View
 
@@ -13,6 +15,14 @@ class Agent(ABC):
     An exception in `choose`, or an action that the referee refuses, costs nothing but time: it is logged, and
     `choose` is asked again until the player's clock has run out.
     """
+
+    @cached_property
+    def simulator(self) -> Simulator:
+        """The physics, counted against the game's simulation budget; whoever runs the agent sets it.
+
+        In an agent that nobody runs it simulates as much as it likes.
+        """
+        return Simulator()
 
     @abstractmethod
     def choose(self, view: View) -> Action:

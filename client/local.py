@@ -8,9 +8,10 @@ from typing import Any
 from client.agent import Agent, AgentFactory
 from client.agents.registry import Player, factory_of, titles
 from client.players import log
+from client.simulator import Simulator
 from physics import Table
-from referee import Action, EightBall, Phase
-from referee.play import MatchSeed, NoiseModel, Stroke
+from referee import Action, EightBall, Phase, SimulationBudget
+from referee.play import Budgets, MatchSeed, NoiseModel, Stroke
 from referee.play.local import BadAction, PlayedGame, Watch, play_match, points_of
 from referee.wire import GameOver, GameTerms, OutcomeView, View
 
@@ -46,6 +47,7 @@ def play(
     seed: int | None = None,
     noise: float = 1.0,
     table: Table | None = None,
+    simulations: int | None = None,
     on_stroke: Callable[[Stroke], Any] | None = None,
 ) -> LocalMatch:
     """Play a match of 8-ball between two agents.
@@ -58,11 +60,12 @@ def play(
         seed: repeats racks, first breaker, noise and the choices of shipped agents; drawn unless given.
         noise: level, 0 to 5; 1 is the Olympiad's.
         table: the Olympiad's unless given.
+        simulations: shots that each agent may simulate in a game with its `simulator`; any number unless given.
         on_stroke: called after every stroke and decision.
 
     Raises:
         client.errors.AgentNotFound: a name leads nowhere.
-        ValueError: fewer games than one, a seed or a level of noise that is none.
+        ValueError: fewer games than one, a seed, a level of noise or a number of simulations that is none.
     """
     if isinstance(games, bool) or not isinstance(games, int) or games < 1:
         raise ValueError(f"games = {games!r}: must be an integer >= 1")
@@ -71,7 +74,9 @@ def play(
     players = titles(_name(agent_a), _name(agent_b))
     watch = Watch(on_stroke=on_stroke or _ignore, on_refusal=_log_bad_action)
     rules, model = EightBall(table or Table.olympiad()), NoiseModel(noise)
-    match = play_match(rules, hall.seat, MatchSeed.of(seed), games, model, players=players, watch=watch)
+    match = play_match(
+        rules, hall.seat, MatchSeed.of(seed), games, model, players=players, simulations=simulations, watch=watch
+    )
     played = tuple(hall.finished(game) for game in match)
     return LocalMatch(players, played, hall.score, seed)
 
@@ -79,9 +84,10 @@ def play(
 class _Chair:
     """One player in one game: the instance, and the view it saw last."""
 
-    def __init__(self, seat: int, factory: AgentFactory) -> None:
+    def __init__(self, seat: int, factory: AgentFactory, budget: SimulationBudget) -> None:
         self._seat = seat
         self._factory = factory
+        self._simulator = Simulator(budget)
         self._agent: Agent | None = None
         self._last: View | None = None
 
@@ -89,6 +95,7 @@ class _Chair:
         """The agent's answer; whatever it raises goes to the driver."""
         if self._agent is None:
             agent = self._factory()
+            agent.simulator = self._simulator
             agent.game_started(view)
             self._agent = agent
         self._last = view
@@ -111,9 +118,9 @@ class _Hall:
         self._factories = factories
         self.score = (0.0, 0.0)
 
-    def seat(self, _number: int) -> tuple[_Chair, _Chair]:
-        """The choosers for the next game."""
-        self._chairs = _Chair(0, self._factories[0]), _Chair(1, self._factories[1])
+    def seat(self, _number: int, budget: Budgets) -> tuple[_Chair, _Chair]:
+        """The choosers for the next game, each simulating on its budget."""
+        self._chairs = _Chair(0, self._factories[0], budget[0]), _Chair(1, self._factories[1], budget[1])
         return self._chairs
 
     def finished(self, game: PlayedGame) -> PlayedGame:

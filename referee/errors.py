@@ -4,7 +4,8 @@
 
     RefereeError (ValueError)
     ├── InvalidAction   not a stroke or a decision, or one that this game does not await
-    └── InvalidGame     a game's data that cannot be
+    ├── InvalidGame     a game's data that cannot be
+    └── BudgetSpent     no simulated shots left (referee.play.budget)
 """
 
 from typing import Any

@@ -1,19 +1,23 @@
-"""Playing: seeds and commitment, noise, the stroke (one loop body for everyone), clocks.
+"""Playing: seeds and commitment, noise, the stroke (one loop body for everyone), clocks, budgets.
 
 ``referee.play.local`` plays whole games without a server; it is imported by name, because it needs the wire.
 """
 
+from referee.play.budget import Budgets, BudgetSpent, SimulationBudget
 from referee.play.clock import Clocks, nanoseconds
 from referee.play.noise import NoiseModel
 from referee.play.seeds import GameSeeds, MatchSeed, commitment, seed_from_hex
 from referee.play.stroke import Refused, Stroke, play_stroke, start_game
 
 __all__ = [
+    "BudgetSpent",
+    "Budgets",
     "Clocks",
     "GameSeeds",
     "MatchSeed",
     "NoiseModel",
     "Refused",
+    "SimulationBudget",
     "Stroke",
     "commitment",
     "nanoseconds",

@@ -6,13 +6,14 @@ from typing import Any
 
 from referee.errors import RefereeError
 from referee.game import Action, EndReason, Game, Outcome
+from referee.play.budget import Budgets, budgets
 from referee.play.clock import SECOND_NS, Clocks
 from referee.play.noise import NoiseModel
 from referee.play.seeds import GameSeeds, MatchSeed
 from referee.play.stroke import Refused, Stroke, play_stroke, start_game
 from referee.record import Header, canonical, end_entry, record_lines, stroke_entry
 from referee.rules import EightBall
-from referee.wire import ClockView, GameTerms, NoiseView, StrokeView, View
+from referee.wire import BudgetView, ClockView, GameTerms, NoiseView, StrokeView, View
 from referee.wire.strokes import since_own_last
 
 Chooser = Callable[[View], Action]
@@ -89,6 +90,7 @@ class PlayedGame:
         seeds: revealed, the game being over.
         elapsed_ns: thinking time of each stroke and decision; Nones without clocks.
         after_ns: thinking time after the last of them, by seat.
+        simulated: shots that each player simulated, by seat, as counted by the agents' simulators.
     """
 
     header: Header
@@ -97,6 +99,7 @@ class PlayedGame:
     seeds: GameSeeds
     elapsed_ns: tuple[int | None, ...]
     after_ns: tuple[int, int] = (0, 0)
+    simulated: tuple[int, int] = (0, 0)
 
     def record(self) -> Iterator[str]:
         """The record, line by line."""
@@ -119,6 +122,7 @@ def play_game(
     number: int = 0,
     games: int = 1,
     score: tuple[float, float] = (0.0, 0.0),
+    budget: Budgets | None = None,
     watch: Watch | None = None,
     match: str = "local",
     game: str | None = None,
@@ -137,10 +141,12 @@ def play_game(
         breaker: the seat that breaks.
         players: names, by seat.
         number, games, score: of the match, for the views.
+        budget: of simulated shots, by seat; whoever simulates for a chooser spends it.
         watch: who is told what.
         match, game: their ids in views and record; the game's is ``local-NUMBER`` unless given.
         timing: clocks; None plays without.
     """
+    budget = budget or budgets(None)
     start = start_game(rules, seeds, breaker)
     header = Header.of(
         rules,
@@ -153,32 +159,37 @@ def play_game(
         players=players,
         allowance_ns=timing.allowance_ns if timing else None,
     )
-    return _Table(header, chairs, seeds, _terms(header, games), score, watch or Watch(), timing).play()
+    terms = _terms(header, games, budget[0].allowed)
+    return _Table(header, chairs, seeds, terms, score, budget, watch or Watch(), timing).play()
 
 
 def play_match(
     rules: EightBall,
-    seat_players: Callable[[int], Chairs],
+    seat_players: Callable[[int, Budgets], Chairs],
     seed: MatchSeed,
     games: int,
     noise: NoiseModel,
     *,
     players: tuple[str, str] = ("seat 0", "seat 1"),
+    simulations: int | None = None,
     watch: Watch | None = None,
 ) -> Iterator[PlayedGame]:
     """Play the games of a match one after the other, the break alternating.
 
     Args:
-        seat_players: called with each game's number; gives the choosers for that game, fresh ones if need be.
+        seat_players: called with each game's number and its budgets of simulated shots; gives the choosers for that
+            game, fresh ones if need be.
         seed: everything random comes from it.
         games: how many.
+        simulations: shots that each player may simulate in a game; None for any number.
         rules, noise, players, watch: as for ``play_game``.
     """
     score = (0.0, 0.0)
     for number in range(games):
+        budget = budgets(simulations)
         played = play_game(
             rules,
-            seat_players(number),
+            seat_players(number, budget),
             seed.game(number),
             noise,
             breaker=seed.breaker(number),
@@ -186,6 +197,7 @@ def play_match(
             number=number,
             games=games,
             score=score,
+            budget=budget,
             watch=watch,
         )
         points = points_of(played.outcome)
@@ -210,6 +222,7 @@ class _Table:
     seeds: GameSeeds
     terms: GameTerms
     score: tuple[float, float]
+    budget: Budgets
     watch: Watch
     timing: Timing | None
     strokes: list[Stroke] = field(default_factory=list)
@@ -234,9 +247,10 @@ class _Table:
                 game = self.header.rules.end(game, lost.reason, game.turn).game
             else:
                 game = self._kept(stroke, elapsed)
+        simulated = self.budget[0].used, self.budget[1].used
         return PlayedGame(
-            self.header, tuple(self.strokes), game.outcome, self.seeds, tuple(self.elapsed), after_ns
-        )  # fmt: skip
+            self.header, tuple(self.strokes), game.outcome, self.seeds, tuple(self.elapsed), after_ns, simulated
+        )
 
     def _kept(self, stroke: Stroke, elapsed: int) -> Game:
         """The game after a stroke that stands, its time charged."""
@@ -302,10 +316,11 @@ class _Table:
 
     def _clock(self, seat: int, turn: int) -> ClockView:
         left = self.clocks.remaining_ns(seat) / SECOND_NS if self.clocks else None
-        return ClockView(seconds_left=left, running=seat == turn)
+        simulations = self.budget[seat].remaining
+        return ClockView(seconds_left=left, running=seat == turn, simulations_left=simulations)
 
 
-def _terms(header: Header, games: int) -> GameTerms:
+def _terms(header: Header, games: int, simulations: int | None) -> GameTerms:
     limits, noise = header.rules.limits, header.noise
     return GameTerms(
         game=header.game,
@@ -316,6 +331,7 @@ def _terms(header: Header, games: int) -> GameTerms:
         rules="eight_ball",
         table=header.rules.table.to_dict(),
         noise=NoiseView(told=noise.told, level=noise.level if noise.told else None),
+        budget=None if simulations is None else BudgetView(simulations=simulations, counted="by_driver"),
         dry_visits_limit=limits.dry_visits,
         replays_limit=limits.replays,
         strokes_limit=limits.strokes,

@@ -29,7 +29,7 @@ from referee.wire.shots import (
     SubmittedAction,
 )
 from referee.wire.strokes import StrokeDetail, StrokeView
-from referee.wire.terms import ClockTerms, ClockView, NoiseTerms, NoiseView
+from referee.wire.terms import BudgetView, ClockTerms, ClockView, NoiseTerms, NoiseView
 from referee.wire.turns import TURN_MESSAGE, GameOver, MatchOver, Turn, TurnMessage
 from referee.wire.view import Allowed, Area, GameTerms, View
 
@@ -46,6 +46,7 @@ __all__ = [
     "BatchAnswer",
     "BatchRequest",
     "BatchRow",
+    "BudgetView",
     "CallRequest",
     "ClockTerms",
     "ClockView",

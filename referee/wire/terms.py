@@ -1,11 +1,11 @@
 """The terms of a match that views repeat: noise and clock."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from referee.play.noise import LEVEL_MAX
-from referee.wire.values import Flag, Message, Number, Request
+from referee.wire.values import Flag, Integer, Message, Number, Request
 
 
 class NoiseTerms(Request):
@@ -42,13 +42,28 @@ class NoiseView(Message):
         return cls(told=terms.told, level=terms.level if terms.told else None)
 
 
+class BudgetView(Message):
+    """The simulation budget of a game.
+
+    Attributes:
+        simulations: shots that each player may simulate.
+        counted: ``by_driver`` in a local game, where the agent's own simulator counts; ``by_honour`` on a server, which
+            counts what it simulates itself and believes what players declare.
+    """
+
+    simulations: Integer
+    counted: Literal["by_driver", "by_honour"]
+
+
 class ClockView(Message):
     """A player's clock.
 
     Attributes:
         seconds_left: s; null in a game without clocks.
         running: whether it is running now.
+        simulations_left: shots that may still be simulated; null without a budget.
     """
 
     seconds_left: Number | None
     running: bool
+    simulations_left: Integer | None = None

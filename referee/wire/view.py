@@ -10,7 +10,7 @@ from physics.table import Table
 from referee.game import CueBallArea, Decision, Game, Group, Legal, Outcome, Phase, legal
 from referee.wire.outcomes import OutcomeView
 from referee.wire.strokes import StrokeView
-from referee.wire.terms import ClockView, NoiseView
+from referee.wire.terms import BudgetView, ClockView, NoiseView
 from referee.wire.values import (
     Balls,
     Digest,
@@ -83,6 +83,7 @@ class GameTerms(Message):
         players: names, by seat.
         table: every parameter of the table.
         noise: its level is null when the players are not told.
+        budget: of simulated shots; null when any number may be simulated.
         dry_visits_limit: after so many visits without a ball pocketed the rack is replayed (R49).
         replays_limit: after so many replays the next stalemate draws the game.
         strokes_limit: after so many strokes the game is drawn.
@@ -97,6 +98,7 @@ class GameTerms(Message):
     rules: RulesName
     table: TableValues
     noise: NoiseView
+    budget: BudgetView | None = None
     dry_visits_limit: Integer
     replays_limit: Integer
     strokes_limit: Integer

@@ -28,7 +28,7 @@ def turn(balls, noise=1.0, **fields):
     """Greedy's view of a turn of seat 0 with these balls on the table."""
     game = Game(physics.TableState.from_positions(balls), fields.pop("phase", Phase.PLAY), 0, 0, **fields)
     chance = np.random.Generator(np.random.PCG64(1))
-    return game, _Turn(RULES, game, noise, chance)
+    return game, _Turn(RULES, game, noise, chance, client.Simulator())
 
 
 @pytest.mark.parametrize("noise", [0.0, 1.0, 5.0])
@@ -39,7 +39,7 @@ def test_no_action_of_a_shipped_agent_is_refused(pair, noise):
     for seed in range(3):
         agents = [client.load(name, seed=seed) for name in pair]
 
-        def seats(_number, agents=agents):
+        def seats(_number, _budgets, agents=agents):
             return tuple(_chooser(factory()) for factory in agents)
 
         watch = Watch(on_refusal=refused.append)

@@ -13,6 +13,7 @@ from client.agents.greedy.judge import Judge
 from client.agents.greedy.plan import Plan
 from client.agents.greedy.worth import worth_of_passing
 from client.geometry import Point
+from client.simulator import Simulator
 from physics import Table
 from referee import Action, Call, CueBallArea, Decision, EightBall, Game, Phase
 from referee.wire import View
@@ -50,17 +51,20 @@ class GreedyAgent(Agent):
 
     def choose(self, view: View) -> Action:
         """The best stroke, or the decision that leads to the best one."""
-        turn = _Turn(self._rules, view.to_game(), self._noise, self._chance)
+        turn = _Turn(self._rules, view.to_game(), self._noise, self._chance, self.simulator)
         return turn.best_stroke()[0] if view.allowed.decisions == () else turn.best_decision()
 
 
 class _Turn:
     """One turn: everything that depends on how the game stands."""
 
-    def __init__(self, rules: EightBall, game: Game, noise: float, chance: np.random.Generator) -> None:
+    def __init__(
+        self, rules: EightBall, game: Game, noise: float, chance: np.random.Generator, simulator: Simulator
+    ) -> None:
         self._rules, self._game, self._noise, self._chance = rules, game, noise, chance
+        self._simulator = simulator
         self._candidates = Candidates(rules.table, noise)
-        self._judge = Judge(rules, game, noise, chance)
+        self._judge = Judge(rules, game, noise, chance, simulator)
 
     @property
     def _table(self) -> Table:
@@ -78,7 +82,7 @@ class _Turn:
         ruling = self._rules.apply(self._game, Action(decision=decision), None, None)
         if ruling.rerack:
             return BREAKING
-        follow = _Turn(self._rules, ruling.game, self._noise, self._chance)
+        follow = _Turn(self._rules, ruling.game, self._noise, self._chance, self._simulator)
         return follow.best_stroke()[1]
 
     def best_stroke(self) -> tuple[Action, float]:

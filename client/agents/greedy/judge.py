@@ -1,5 +1,6 @@
 """How good plans are under the game's noise: many noisy variants of each, simulated and ruled on."""
 
+import sys
 from collections.abc import Sequence
 
 import numpy as np
@@ -7,13 +8,16 @@ from numpy.typing import NDArray
 
 from client.agents.greedy.plan import Plan
 from client.agents.greedy.worth import worth
-from physics import simulate_batch
+from client.simulator import Simulator
 from physics.constants import THETA_MAX, V_MAX
 from physics.shot import FIELDS
 from referee import Call, EightBall, Game
 from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
 
 SIGMAS = dict(zip(FIELDS, (SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B), strict=True))
+
+SHARE = 10
+"""A judgement simulates at most a tenth of what the budget has left: a game has some dozens of strokes."""
 
 
 class Judge:
@@ -24,20 +28,26 @@ class Judge:
         game: as it stands; the player in turn is the one whose worth counts.
         noise: the noise level to reckon with.
         chance: where the variants come from.
+        simulator: the physics; of what its budget has left each judgement takes a share and no more.
     """
 
-    def __init__(self, rules: EightBall, game: Game, noise: float, chance: np.random.Generator) -> None:
+    def __init__(
+        self, rules: EightBall, game: Game, noise: float, chance: np.random.Generator, simulator: Simulator
+    ) -> None:
         self._rules = rules
+        self._simulator = simulator
         self._game = game
         self._spread = noise * np.array([SIGMAS[name] for name in FIELDS])
         self._chance = chance
 
     def worths(self, plans: Sequence[Plan], variants: int) -> NDArray[np.float64]:
         """Mean worth of each plan over so many noisy variants, (n,); without noise there is but one."""
-        copies = variants if self._spread.any() else 1
+        copies = min(variants if self._spread.any() else 1, self._affordable() // len(plans))
+        if copies == 0:
+            return np.zeros(len(plans))
         shots = self._disturbed(np.repeat([_columns(plan) for plan in plans], copies, axis=0))
         before = np.repeat([plan.before.positions for plan in plans], copies, axis=0)
-        batch = simulate_batch(self._rules.table, before, shots)
+        batch = self._simulator.simulate_batch(self._rules.table, before, shots)
         actions = [plan.action for plan in plans for _ in range(copies)]
         rulings = self._rules.apply_batch(self._game, actions, batch)
         each = [worth(ruling.game, self._game.turn) for ruling in rulings]
@@ -46,14 +56,20 @@ class Judge:
 
     def pocketed(self, plans: Sequence[Plan], balls: Sequence[int]) -> list[Call | None]:
         """For each plan the first of `balls` that it sends into a pocket as intended, as a call."""
-        if not balls:
+        if not balls or len(plans) > self._affordable():
             return [None] * len(plans)
         before = np.array([plan.before.positions for plan in plans])
-        batch = simulate_batch(self._rules.table, before, np.array([_columns(plan) for plan in plans]))
+        columns = np.array([_columns(plan) for plan in plans])
+        batch = self._simulator.simulate_batch(self._rules.table, before, columns)
         into = batch.pocket[:, list(balls)]
         first = (into >= 0).argmax(axis=1)
         rows = zip(first.tolist(), into[np.arange(len(plans)), first].tolist(), strict=True)
         return [Call(balls[index], pocket) if pocket >= 0 else None for index, pocket in rows]
+
+    def _affordable(self) -> int:
+        """How many shots this judgement may simulate."""
+        remaining = self._simulator.remaining
+        return sys.maxsize if remaining is None else remaining // SHARE
 
     def _disturbed(self, shots: NDArray[np.float64]) -> NDArray[np.float64]:
         """The shots with noise as the game adds it: speed and elevation clamped to their range."""

@@ -171,7 +171,7 @@ def test_a_match_alternates_the_break_and_keeps_the_score():
     """R50."""
     seed, seen = MatchSeed.of(5), []
 
-    def chairs(number):
+    def chairs(number, _budgets):
         spies = Spy(Potter(f"a{number}")), Spy(Potter(f"b{number}"))
         seen.append(spies)
         return spies
