@@ -14,6 +14,7 @@ from server.routes import ROUTERS
 from server.security.body_gate import BodyGate
 from server.services import warmup
 from server.services.context import Context
+from server.services.spectators import Spectators
 from server.services.timer import Timer
 from server.settings import Settings
 from server.store.database import Database
@@ -43,6 +44,7 @@ def create_app(settings: Settings) -> FastAPI:
         },
     )
     app.state.context = context
+    app.state.spectators = Spectators(context)
     app.openapi = partial(openapi.document, app)  # type: ignore[method-assign]
     app.add_middleware(BodyGate, limit=settings.body_limit, seconds=settings.body_seconds, time=context.time)
     app.state.endpoints = (*app.routes, *(route for router in ROUTERS for route in router.routes))
@@ -53,11 +55,11 @@ def create_app(settings: Settings) -> FastAPI:
 
 def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManager[None]]:
     @asynccontextmanager
-    async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         upgrade(context.database)
         context.wakeups.start()
         warmup.start(context)
-        async with Timer(context).running():
+        async with Timer(context).running(), app.state.spectators.running():
             yield
         context.wakeups.drain()
         context.database.dispose()

@@ -28,6 +28,8 @@ class Settings:
     timer_period: float = 0.2
     poll_recheck: float = 2.0
     longest_wait: float = 60.0
+    stream_recheck: float = 1.0
+    stream_keepalive: float = 15.0
     body_limit: int = 2 * 1024 * 1024
     body_seconds: float = 10.0
     drain_seconds: float = 5.0

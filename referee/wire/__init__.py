@@ -28,6 +28,7 @@ from referee.wire.shots import (
     ShotRequest,
     SubmittedAction,
 )
+from referee.wire.streams import ManyEvent, StreamClocks, StreamConnections, StreamResult, of_many
 from referee.wire.strokes import StrokeDetail, StrokeView
 from referee.wire.terms import BudgetView, ClockTerms, ClockView, NoiseTerms, NoiseView
 from referee.wire.turns import TURN_MESSAGE, GameOver, MatchOver, Turn, TurnMessage
@@ -58,6 +59,7 @@ __all__ = [
     "GameOver",
     "GameSummary",
     "GameTerms",
+    "ManyEvent",
     "MatchList",
     "MatchOver",
     "MatchRequest",
@@ -77,6 +79,9 @@ __all__ = [
     "ShotsPage",
     "SimulateAnswer",
     "SimulateRequest",
+    "StreamClocks",
+    "StreamConnections",
+    "StreamResult",
     "StrokeAnswer",
     "StrokeDetail",
     "StrokeView",
@@ -84,5 +89,6 @@ __all__ = [
     "Turn",
     "TurnMessage",
     "View",
+    "of_many",
     "shown",
 ]

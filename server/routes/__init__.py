@@ -4,13 +4,14 @@ from typing import Final
 
 from fastapi import APIRouter
 
-from server.routes import agents, games, health, matches, physics, turns
+from server.routes import agents, games, health, matches, physics, streams, turns
 
 ROUTERS: Final[tuple[APIRouter, ...]] = (
     agents.router,
     matches.router,
     turns.router,
     games.router,
+    streams.router,
     physics.router,
     health.router,
 )

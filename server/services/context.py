@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from sqlalchemy import Connection
 
 from referee.play import nanoseconds
+from server.services.presence import Presence
 from server.services.time import TimeSource
 from server.services.wakeups import Wakeups
 from server.settings import Settings
@@ -28,6 +29,7 @@ class Context:
     database: Database
     time: TimeSource = field(default_factory=TimeSource)
     wakeups: Wakeups = field(default_factory=Wakeups)
+    presence: Presence = field(default_factory=Presence)
     warm: threading.Event = field(default_factory=threading.Event)
     warm_up_failed: threading.Event = field(default_factory=threading.Event)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))

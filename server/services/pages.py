@@ -4,14 +4,21 @@ from server.errors import invalid_field
 
 PAGE = 50
 LONGEST_PAGE = 200
+LONGEST_NUMBER = 15
+"""Digits."""
 
 
 def cursor(text: str | None) -> int:
     """The row number a cursor stands for, 0 for none; raises `Invalid`."""
+    return number("cursor", text, "the next_cursor of the page before, as it came")
+
+
+def number(name: str, text: str | None, allowed: str) -> int:
+    """A whole number from the address, 0 when it is not given; raises `Invalid`."""
     if text is None:
         return 0
-    if not (text.isascii() and text.isdigit() and len(text) <= 15):
-        raise invalid_field("cursor", text, "the next_cursor of the page before, as it came")
+    if not (text.isascii() and text.isdigit() and len(text) <= LONGEST_NUMBER):
+        raise invalid_field(name, text, allowed)
     return int(text)
 
 

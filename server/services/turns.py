@@ -26,6 +26,7 @@ async def wait_for_message(
     loop = asyncio.get_running_loop()
     end = loop.time() + seconds
     hint = context.wakeups.listen(agent)
+    context.presence.enter(agent)
     try:
         while not context.wakeups.draining.is_set() and not await is_gone():
             hint.clear()
@@ -37,6 +38,7 @@ async def wait_for_message(
             await _wait(hint, min(left, context.settings.poll_recheck))
         return None
     finally:
+        context.presence.leave(agent, context.time.now())
         context.wakeups.leave(agent, hint)
 
 

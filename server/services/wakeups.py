@@ -7,6 +7,9 @@ import asyncio
 from collections import defaultdict
 from collections.abc import Iterable
 
+EVERYBODY = "*"
+"""Listening for this is listening for every agent's news at once."""
+
 
 class Wakeups:
     """Who waits for which agent's news.
@@ -34,7 +37,7 @@ class Wakeups:
         self._set(tuple(self._waiting))
 
     def _set(self, agents: tuple[str, ...]) -> None:
-        for agent in agents:
+        for agent in (*agents, EVERYBODY):
             for event in self._waiting.get(agent, ()):
                 event.set()
 

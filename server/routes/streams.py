@@ -1,0 +1,76 @@
+"""Server-sent events for spectators."""
+
+from collections.abc import AsyncIterator
+from typing import Annotated, Final
+
+from fastapi import APIRouter, Depends, Header, Query, Request, Response
+from fastapi.sse import EventSourceResponse
+
+from server.errors import BadHeader, Draining, Invalid, NotFound, Unauthorized, invalid_field
+from server.routes.dependencies import ANYBODY, Server
+from server.routes.describe import describe
+from server.services import pages
+from server.services.spectators import Spectators
+
+router = APIRouter(prefix="/v1", tags=["streams"])
+
+EVENT_STREAM: Final = "text/event-stream"
+MOST_GAMES: Final = 64
+"""Games one stream may carry."""
+
+
+def _spectators(request: Request, context: Server) -> Spectators:
+    if context.wakeups.draining.is_set():
+        raise Draining("the server is shutting down")
+    spectators: Spectators = request.app.state.spectators
+    return spectators
+
+
+Watching = Annotated[Spectators, Depends(_spectators)]
+
+
+@router.get(
+    "/games/{game_id}/stream",
+    **describe(NotFound, BadHeader, Invalid, Unauthorized, Draining, success={200: EVENT_STREAM}, token=False),
+    dependencies=[ANYBODY],
+    summary="Watch a game",
+)
+async def watch_game(
+    game_id: str,
+    spectators: Watching,
+    after: Annotated[str | None, Query(description="the id of the last event one has")] = None,
+    last_event_id: Annotated[str | None, Header(description="the same, as browsers send it")] = None,
+) -> Response:
+    """How the game stands, its strokes so far (after the given one), then everything as it happens."""
+    return _streamed(await spectators.watch_one(game_id, _sequence(last_event_id, after)))
+
+
+@router.get(
+    "/stream",
+    **describe(NotFound, Invalid, Unauthorized, Draining, success={200: EVENT_STREAM}, token=False),
+    dependencies=[ANYBODY],
+    summary="Watch several games",
+)
+async def watch_games(
+    spectators: Watching,
+    game: Annotated[list[str] | None, Query(description="ids of games, 1 to 64")] = None,
+) -> Response:
+    """How each of them stands, then everything as it happens; every event says which game it is about."""
+    games = list(dict.fromkeys(game or ()))
+    if not 1 <= len(games) <= MOST_GAMES:
+        raise invalid_field("game", f"{len(games)} games", f"1 to {MOST_GAMES} games")
+    return _streamed(await spectators.watch_many(games))
+
+
+def _sequence(header: str | None, query: str | None) -> int:
+    """The id of the last event the caller has; 0 for none. The header, the later news, goes before the address."""
+    if header is None:
+        return pages.number("after", query, "the id of an event")
+    if not (header.isascii() and header.isdigit() and len(header) <= pages.LONGEST_NUMBER):
+        raise BadHeader("Last-Event-ID is no event's id", field="Last-Event-ID", value=header, allowed="digits")
+    return int(header)
+
+
+def _streamed(events: AsyncIterator[bytes]) -> Response:
+    """Not to be kept by anybody on the way, nor held back until a buffer is full."""
+    return EventSourceResponse(events, headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"})

@@ -1,0 +1,31 @@
+"""Which agents are there: a poll of theirs is open, or one was a moment ago."""
+
+from collections import Counter
+
+from referee.play.clock import SECOND_NS
+
+LATELY = 10 * SECOND_NS
+"""Nanoseconds after its last poll for which an agent counts as being there: between two polls it works."""
+
+
+class Presence:
+    """Who polls this process. Changed on the event loop, read from any thread."""
+
+    def __init__(self) -> None:
+        self._polls: Counter[str] = Counter()
+        self._last: dict[str, int] = {}
+
+    def enter(self, agent: str) -> None:
+        """A poll of this agent begins."""
+        self._polls[agent] += 1
+
+    def leave(self, agent: str, now: int) -> None:
+        """A poll of this agent ends."""
+        self._last[agent] = now
+        self._polls[agent] -= 1
+        if self._polls[agent] <= 0:
+            del self._polls[agent]
+
+    def is_here(self, agent: str, now: int) -> bool:
+        """Whether the agent polls, or did so lately."""
+        return agent in self._polls or now - self._last.get(agent, -LATELY) < LATELY
