@@ -4,6 +4,7 @@ WORKDIR /source
 COPY pyproject.toml README.md LICENSE ./
 COPY physics physics
 COPY referee referee
+COPY tournament tournament
 COPY server server
 COPY client client
 RUN pip wheel --no-deps --wheel-dir /wheels .

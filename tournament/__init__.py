@@ -1,0 +1,40 @@
+"""Tournaments as pure values: terms, pairings, results, standings, statistics.
+
+No network, no processes, no clock: whoever runs an event asks it what is due and tells it what came of it.
+"""
+
+from tournament.errors import InvalidResult, InvalidSpec, TournamentError
+from tournament.event import Event, forfeit
+from tournament.noise_plan import NoisePlan
+from tournament.pairings import Bye, Due, Pair, Plan
+from tournament.presets import PRESETS
+from tournament.results import GameResult
+from tournament.seeds import game_seeds
+from tournament.spec import Drawn, Entrant, Format, Seeding, Spec, TieBreak
+from tournament.sprt_terms import SprtTerms
+from tournament.standings import Standing, standings
+
+__all__ = [
+    "PRESETS",
+    "Bye",
+    "Drawn",
+    "Due",
+    "Entrant",
+    "Event",
+    "Format",
+    "GameResult",
+    "InvalidResult",
+    "InvalidSpec",
+    "NoisePlan",
+    "Pair",
+    "Plan",
+    "Seeding",
+    "Spec",
+    "SprtTerms",
+    "Standing",
+    "TieBreak",
+    "TournamentError",
+    "forfeit",
+    "game_seeds",
+    "standings",
+]

@@ -1,0 +1,212 @@
+"""An event as it stands: terms, results, withdrawals. Everything else is computed from these three."""
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from types import MappingProxyType
+from typing import Any, Self
+
+from referee.game import EndReason
+from tournament.checks import Checker
+from tournament.errors import InvalidResult
+from tournament.formats import planner
+from tournament.pairings import LEGS, Bye, Due, Pair, Plan
+from tournament.results import GameResult
+from tournament.scores import Key, Meeting, counting, meetings
+from tournament.spec import MOST_ROUNDS, Format, Spec
+from tournament.statistics.sprt import SprtState, sprt
+
+_check = Checker(InvalidResult)
+
+
+@dataclass(frozen=True)
+class Event:
+    """An event as it stands; a value, every change gives a new one.
+
+    Attributes:
+        spec: the terms.
+        results: of games, in any order, void and aborted ones among them.
+        withdrawn: name to the first round in which that entrant is not paired any more.
+
+    Raises:
+        InvalidResult: a result is not of this event, or a game has two that count.
+    """
+
+    spec: Spec
+    results: tuple[GameResult, ...] = ()
+    withdrawn: Mapping[str, int] = field(default_factory=dict, hash=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "results", tuple(self.results))
+        object.__setattr__(self, "withdrawn", MappingProxyType(dict(self.withdrawn)))
+        for name, around in self.withdrawn.items():
+            self._check_entrant("withdrawn", name)
+            _check.integer("withdrawn", around, 0, MOST_ROUNDS)
+        self._check_once()
+
+    @cached_property
+    def games(self) -> dict[Key, GameResult]:
+        """The result that counts for each game played, by pair id and leg."""
+        return counting(self.results)
+
+    @cached_property
+    def plan(self) -> Plan:
+        """The pairs and byes that are certain.
+
+        Raises:
+            InvalidResult: a result belongs to no pair of the event.
+        """
+        plan = planner(self.spec.format)(self.spec, self.games, self.withdrawn)
+        known = {pair.id: pair for pair in plan.pairs}
+        for result in self.results:
+            self._check_known(result, known)
+        return plan
+
+    @property
+    def pairs(self) -> tuple[Pair, ...]:
+        """The pairs that are certain and needed: all of the plan, or those up to the decision of the test."""
+        return self.plan.pairs[: self.test.pairs] if self.test is not None and self.stopped else self.plan.pairs
+
+    @property
+    def byes(self) -> tuple[Bye, ...]:
+        """Who rests in which round, as far as it is certain."""
+        return self.plan.byes
+
+    @cached_property
+    def test(self) -> SprtState | None:
+        """The sequential test over complete pairs in their order, up to the first one that is not; None without one."""
+        if self.spec.sprt is None:
+            return None
+        cells = []
+        for pair in self.plan.pairs:
+            played = self.of_pair(pair)
+            if len(played) < len(LEGS):
+                break
+            cells.append(round(2 * sum(game.points_of(self.spec.names[0]) for game in played)))
+        return sprt(self.spec.sprt, cells)
+
+    @property
+    def stopped(self) -> bool:
+        """The test has decided: no more games are needed."""
+        return self.test is not None and self.test.verdict != "open"
+
+    @cached_property
+    def due(self) -> tuple[Due, ...]:
+        """Games to be played now, in the order in which to start them; a game that is running is among them."""
+        if self.stopped:
+            return ()
+        return tuple(
+            Due(pair, leg, self._attempts(pair, leg))
+            for pair in self.plan.pairs
+            for leg in LEGS
+            if (pair.id, leg) not in self.games
+        )
+
+    @property
+    def finished(self) -> bool:
+        """Nothing is left to be played."""
+        return not self.due and (self.stopped or self.plan.complete)
+
+    @property
+    def counted(self) -> tuple[GameResult, ...]:
+        """The results that standings and statistics rest on, in the order of pairs.
+
+        Games finished after the test had decided are not among them: which ones there are depends on who was
+        quicker.
+        """
+        return tuple(game for pair in self.pairs for game in self.of_pair(pair))
+
+    @property
+    def meetings(self) -> list[Meeting]:
+        """Round by round, with what has been played."""
+        return meetings(self.pairs, self.games)
+
+    def of_pair(self, pair: Pair) -> tuple[GameResult, ...]:
+        """The results of a pair that count, the first game first."""
+        return tuple(self.games[pair.id, leg] for leg in LEGS if (pair.id, leg) in self.games)
+
+    def with_results(self, *results: GameResult) -> Self:
+        """The event with more results."""
+        return replace(self, results=(*self.results, *results))
+
+    def voided(self, pair: str, leg: int) -> Self:
+        """The event with a game's result void: the game is due again, with fresh noise.
+
+        Raises:
+            InvalidResult: the game has no result, or a later round has been drawn from it already.
+        """
+        result = self.games.get((pair, leg))
+        if result is None:
+            _check.fail("pair", f"{pair} game {leg}", "a game with a result")
+        if self._drawn_from(pair):
+            _check.fail("pair", pair, "a game that no later round has been drawn from")
+        void = replace(result, void=True)
+        return replace(self, results=tuple(void if one is result else one for one in self.results))
+
+    def disqualified(self, name: str) -> Self:
+        """The event without an entrant: its due games are forfeit, and it is not paired any more.
+
+        Raises:
+            InvalidResult: there is no such entrant.
+        """
+        self._check_entrant("name", name)
+        lost = [due for due in self.due if name in due.pair.players]
+        under_way = [self.plan.pairs[-1].round] if self.plan.pairs else [0]
+        first = self._first_free_round() if self._all_planned() else max(under_way) + 1
+        kept = [due for due in lost if due.pair.round < first]
+        gone = dict(self.withdrawn) | {name: min(first, self.withdrawn.get(name, first))}
+        return replace(self.with_results(*(forfeit(due, name) for due in kept)), withdrawn=gone)
+
+    def _all_planned(self) -> bool:
+        """All rounds are certain from the beginning."""
+        return self.spec.format in (Format.ROUND_ROBIN, Format.GAUNTLET)
+
+    def _first_free_round(self) -> int:
+        """The first round after all those in which something has been played."""
+        rounds = {pair.id: pair.round for pair in self.plan.pairs}
+        return max((rounds[result.pair] + 1 for result in self.results), default=0)
+
+    def _drawn_from(self, pair: str) -> bool:
+        """Whether a result exists in a later round that was drawn from this one's results."""
+        rounds = {each.id: each.round for each in self.plan.pairs}
+        later = any(rounds[result.pair] > rounds[pair] for result in self.results)
+        return later and not self._all_planned()
+
+    def _attempts(self, pair: Pair, leg: int) -> int:
+        """How often a game has been played in vain."""
+        return self._played[pair.id, leg]
+
+    @cached_property
+    def _played(self) -> Counter[Key]:
+        return Counter((one.pair, one.leg) for one in self.results)
+
+    def _check_entrant(self, field_: str, name: Any) -> None:
+        if name not in self.spec.names:
+            _check.fail(field_, name, f"an entrant of {self.spec.name}")
+
+    def _check_once(self) -> None:
+        seen: set[Key] = set()
+        for one in self.results:
+            if not isinstance(one, GameResult):
+                _check.fail("results", one, "a tournament.GameResult")
+            if one.counts and (one.pair, one.leg) in seen:
+                _check.fail("results", f"{one.pair} game {one.leg}", "one result that counts for each game")
+            if one.counts:
+                seen.add((one.pair, one.leg))
+
+    def _check_known(self, result: GameResult, known: Mapping[str, Pair]) -> None:
+        pair = known.get(result.pair)
+        if pair is None:
+            _check.fail("pair", result.pair, "a pair of this event")
+        if result.players != pair.players or result.breaker != pair.breaker(result.leg):
+            _check.fail("players", (result.players, result.breaker), f"{pair.players}, seat {result.leg} breaking")
+
+
+def forfeit(due: Due, loser: str, reason: EndReason = EndReason.FORFEIT) -> GameResult:
+    """The result of a game that was not played to its end because of ``loser``: R48."""
+    players = due.pair.players
+    winner = 1 - players.index(loser)
+    return GameResult(
+        due.pair.id, due.leg, players, due.breaker, winner, reason, noise=due.pair.noise, attempt=due.attempt
+    )

@@ -1,0 +1,1 @@
+"""Ratings, intervals, tests: what the results say about strength, and how surely."""
