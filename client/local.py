@@ -10,7 +10,7 @@ from client.agents.registry import Player, factory_of, titles
 from client.players import log
 from client.simulator import Simulator
 from physics import Table
-from referee import Action, EightBall, Phase, SimulationBudget
+from referee import Action, EightBall, Game, Phase, SimulationBudget
 from referee.play import Budgets, MatchSeed, NoiseModel, Stroke
 from referee.play.local import BadAction, PlayedGame, Watch, play_match, points_of
 from referee.wire import GameOver, GameTerms, OutcomeView, View
@@ -48,6 +48,7 @@ def play(
     noise: float = 1.0,
     table: Table | None = None,
     simulations: int | None = None,
+    start: Game | None = None,
     on_stroke: Callable[[Stroke], Any] | None = None,
 ) -> LocalMatch:
     """Play a match of 8-ball between two agents.
@@ -61,11 +62,14 @@ def play(
         noise: level, 0 to 5; 1 is the Olympiad's.
         table: the Olympiad's unless given.
         simulations: shots that each agent may simulate in a game with its `simulator`; any number unless given.
+        start: where every game begins instead of a break, e.g. `view.to_game()`; the seats are exchanged in
+            every second game.
         on_stroke: called after every stroke and decision.
 
     Raises:
         client.errors.AgentNotFound: a name leads nowhere.
-        ValueError: fewer games than one, a seed, a level of noise or a number of simulations that is none.
+        ValueError: fewer games than one, a seed, a level of noise or a number of simulations that is none, a
+            start that cannot be played on from (`referee.InvalidGame`).
     """
     if isinstance(games, bool) or not isinstance(games, int) or games < 1:
         raise ValueError(f"games = {games!r}: must be an integer >= 1")
@@ -75,7 +79,15 @@ def play(
     watch = Watch(on_stroke=on_stroke or _ignore, on_refusal=_log_bad_action)
     rules, model = EightBall(table or Table.olympiad()), NoiseModel(noise)
     match = play_match(
-        rules, hall.seat, MatchSeed.of(seed), games, model, players=players, simulations=simulations, watch=watch
+        rules,
+        hall.seat,
+        MatchSeed.of(seed),
+        games,
+        model,
+        position=None if start is None else rules.begin_from(start),
+        players=players,
+        simulations=simulations,
+        watch=watch,
     )
     played = tuple(hall.finished(game) for game in match)
     return LocalMatch(players, played, hall.score, seed)

@@ -240,9 +240,9 @@ def _fault(found: Mapping[str, Any]) -> Fault:
     )
 
 
-def invalid_physics(error: PhysicsError) -> Invalid:
-    """What the physics does not take, by the name that the field has in the request."""
-    return Invalid([_physics_fault(error, [], type(error).__name__)])
+def invalid_physics(error: PhysicsError, place: Sequence[str] = ()) -> Invalid:
+    """What the physics does not take, by the name that the field has at `place` of the request."""
+    return Invalid([_physics_fault(error, place, type(error).__name__)])
 
 
 def _physics_fault(error: PhysicsError, place: Sequence[str], code: str) -> Fault:

@@ -1,7 +1,7 @@
 """The state of a game between two actions: an immutable value that JSON carries without loss."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from enum import StrEnum
 from typing import Any, TypeVar
 
@@ -91,6 +91,14 @@ class Game:
     def group_of(self, seat: int) -> Group | None:
         """The seat's group, None on an open table."""
         return None if self.groups is None else self.groups[seat]
+
+    def exchanged(self) -> "Game":
+        """The same game with the seats exchanged: what was to be played by one is to be played by the other."""
+        outcome = self.outcome
+        if outcome is not None and outcome.winner is not None:
+            outcome = replace(outcome, winner=1 - outcome.winner)
+        groups = None if self.groups is None else (self.groups[1], self.groups[0])
+        return replace(self, turn=1 - self.turn, breaker=1 - self.breaker, groups=groups, outcome=outcome)
 
     def to_dict(self) -> dict[str, Any]:
         """JSON form; ``Game.from_dict(json.loads(json.dumps(game.to_dict()))) == game``."""

@@ -7,7 +7,7 @@ from referee.play.budget import Budgets, BudgetSpent, SimulationBudget
 from referee.play.clock import Clocks, nanoseconds
 from referee.play.noise import NoiseModel
 from referee.play.seeds import GameSeeds, MatchSeed, commitment, seed_from_hex
-from referee.play.stroke import Refused, Stroke, play_stroke, start_game
+from referee.play.stroke import Refused, Stroke, begin_game, play_stroke, start_game
 
 __all__ = [
     "BudgetSpent",
@@ -19,6 +19,7 @@ __all__ = [
     "Refused",
     "SimulationBudget",
     "Stroke",
+    "begin_game",
     "commitment",
     "nanoseconds",
     "play_stroke",

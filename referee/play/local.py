@@ -10,7 +10,7 @@ from referee.play.budget import Budgets, budgets
 from referee.play.clock import SECOND_NS, Clocks
 from referee.play.noise import NoiseModel
 from referee.play.seeds import GameSeeds, MatchSeed
-from referee.play.stroke import Refused, Stroke, play_stroke, start_game
+from referee.play.stroke import Refused, Stroke, begin_game, play_stroke, start_game
 from referee.record import Header, canonical, end_entry, record_lines, stroke_entry
 from referee.rules import EightBall
 from referee.wire import BudgetView, ClockView, GameTerms, NoiseView, StrokeView, View
@@ -118,6 +118,7 @@ def play_game(
     noise: NoiseModel,
     *,
     breaker: int = 0,
+    position: Game | None = None,
     players: tuple[str, str] = ("seat 0", "seat 1"),
     number: int = 0,
     games: int = 1,
@@ -139,6 +140,7 @@ def play_game(
         seeds: of the game.
         noise: of the game.
         breaker: the seat that breaks.
+        position: where to begin instead of a break, of ``EightBall.begin_from``.
         players: names, by seat.
         number, games, score: of the match, for the views.
         budget: of simulated shots, by seat; whoever simulates for a chooser spends it.
@@ -147,7 +149,7 @@ def play_game(
         timing: clocks; None plays without.
     """
     budget = budget or budgets(None)
-    start = start_game(rules, seeds, breaker)
+    start = position or start_game(rules, seeds, breaker)
     header = Header.of(
         rules,
         start,
@@ -158,6 +160,7 @@ def play_game(
         number=number,
         players=players,
         allowance_ns=timing.allowance_ns if timing else None,
+        given=position is not None,
     )
     terms = _terms(header, games, budget[0].allowed)
     return _Table(header, chairs, seeds, terms, score, budget, watch or Watch(), timing).play()
@@ -170,6 +173,7 @@ def play_match(
     games: int,
     noise: NoiseModel,
     *,
+    position: Game | None = None,
     players: tuple[str, str] = ("seat 0", "seat 1"),
     simulations: int | None = None,
     watch: Watch | None = None,
@@ -182,6 +186,7 @@ def play_match(
         seed: everything random comes from it.
         games: how many.
         simulations: shots that each player may simulate in a game; None for any number.
+        position: where every game begins instead of a break, the seats exchanged in every second one.
         rules, noise, players, watch: as for ``play_game``.
     """
     score = (0.0, 0.0)
@@ -193,6 +198,7 @@ def play_match(
             seed.game(number),
             noise,
             breaker=seed.breaker(number),
+            position=None if position is None else begin_game(rules, seed, number, position),
             players=players,
             number=number,
             games=games,

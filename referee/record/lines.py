@@ -32,7 +32,8 @@ class Header:
         noise: its level and whether the players were told.
         allowance_ns: thinking time of each player; None without clocks.
         commitment: SHA-256 of the noise seed.
-        start: the game before the break, the balls racked.
+        start: the game before its first stroke: the balls racked, or the position that was given.
+        given: whether that position was given by whoever made the match, instead of a break.
         engine: what the game is played with.
     """
 
@@ -45,6 +46,7 @@ class Header:
     allowance_ns: int | None
     commitment: str
     start: Game
+    given: bool
     engine: Engine
 
     @classmethod
@@ -60,6 +62,7 @@ class Header:
         number: int = 0,
         players: tuple[str, str],
         allowance_ns: int | None = None,
+        given: bool = False,
     ) -> "Header":
         """The header of a game about to be played with the running engine."""
         return cls(
@@ -72,6 +75,7 @@ class Header:
             allowance_ns=allowance_ns,
             commitment=seeds.commitment,
             start=start,
+            given=given,
             engine=this_engine(),
         )
 
@@ -91,6 +95,7 @@ class Header:
             "allowance_ns": self.allowance_ns,
             "commitment": self.commitment,
             "start": self.start.to_dict(),
+            "given": self.given,
         }
 
     @classmethod
@@ -114,6 +119,7 @@ class Header:
                 allowance_ns=values["allowance_ns"],
                 commitment=values["commitment"],
                 start=Game.from_dict(values["start"]),
+                given=_flag("given", values["given"]),
                 engine=Engine.from_dict(values["engine"]),
             )
         except (KeyError, TypeError, AttributeError) as error:
@@ -195,3 +201,9 @@ def _played(stroke: Stroke) -> dict[str, Any]:
         "duration": result.duration,
         "final": result.final.to_dict(),
     }
+
+
+def _flag(field: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise InvalidGame(field, value, "true or false")
+    return value

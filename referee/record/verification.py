@@ -103,7 +103,7 @@ class _Replay:
 
     def run(self) -> Verification:
         """Verify the whole record."""
-        game = start_game(self.header.rules, self.seeds, self.header.start.breaker)
+        game = self._start()
         if difference := self._header(game):
             return Verification(Verdict.DIFFERENT, difference=difference)
         for number, entry in enumerate(self.record.entries):
@@ -116,6 +116,11 @@ class _Replay:
         if isinstance(found_end, Difference):
             return Verification(Verdict.DIFFERENT, strokes, difference=found_end)
         return Verification(Verdict.VERIFIED, strokes, outcome=found_end)
+
+    def _start(self) -> Game:
+        """The game before its first stroke: a position that was given has to be one, a rack follows from its seed."""
+        rules, start = self.header.rules, self.header.start
+        return rules.begin_from(start) if self.header.given else start_game(rules, self.seeds, start.breaker)
 
     def _header(self, game: Game) -> Difference | None:
         """The commitment and the first rack follow from the revealed seeds; nothing else is in the header."""

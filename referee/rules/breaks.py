@@ -1,6 +1,7 @@
 """R8 to R17: the break. What it was, and what follows."""
 
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Final, NamedTuple
 
 from physics.facts import NEVER
 from referee.game import EIGHT, Decision, Evidence
@@ -13,6 +14,16 @@ BALLS_TO_CUSHION = 4
 _RERACKS = (Decision.RERACK_AND_BREAK, Decision.OPPONENT_RERACKS)
 _AFTER_FOUL = (Decision.ACCEPT_TABLE, Decision.BALL_IN_HAND)
 _ABOUT_EIGHT = (Decision.SPOT_EIGHT, Decision.RERACK_AND_BREAK)
+
+OFFERED: Final[Mapping[str, tuple[Decision, ...]]] = {
+    "R12": (Decision.ACCEPT_TABLE, *_RERACKS),
+    "R12a": (*_AFTER_FOUL, *_RERACKS),
+    "R13": _ABOUT_EIGHT,
+    "R14": _ABOUT_EIGHT,
+    "R16": _AFTER_FOUL,
+    "R17": _AFTER_FOUL,
+}
+"""What each rule that grants a choice offers; R12a without `accept_table` when the cue ball is off the table."""
 
 
 class Choice(NamedTuple):
@@ -52,29 +63,29 @@ def illegal_break(stroke: Stroke, found: Finding) -> Choice | None:
     """R12: illegal without a foul, the opponent takes the table as it lies or asks for a new rack."""
     if legal_break(stroke) or found:
         return None
-    return Choice("R12", stroke.opponent, (Decision.ACCEPT_TABLE, *_RERACKS))
+    return Choice("R12", stroke.opponent, OFFERED["R12"])
 
 
 def illegal_break_with_foul(stroke: Stroke, found: Finding) -> Choice | None:
     """R12a: the new racks of R12, or what the foul gives: no position to accept after a scratch."""
     if legal_break(stroke) or not found:
         return None
-    given = (Decision.BALL_IN_HAND,) if worst(found) == "R32" else _AFTER_FOUL
-    return Choice("R12a", stroke.opponent, (*given, *_RERACKS))
+    offered = OFFERED["R12a"]
+    return Choice("R12a", stroke.opponent, offered[1:] if worst(found) == "R32" else offered)
 
 
 def eight_on_break(stroke: Stroke, found: Finding) -> Choice | None:
     """R13: the 8 pocketed without a foul, the breaker has it spotted or breaks again."""
     if not stroke.eight_pocketed or found:
         return None
-    return Choice("R13", stroke.shooter, _ABOUT_EIGHT)
+    return Choice("R13", stroke.shooter, OFFERED["R13"])
 
 
 def eight_and_scratch_on_break(stroke: Stroke, found: Finding) -> Choice | None:
     """R14: the 8 pocketed with a scratch, the opponent has it spotted or breaks himself."""
     if not stroke.eight_pocketed or worst(found) != "R32":
         return None
-    return Choice("R14", stroke.opponent, _ABOUT_EIGHT)
+    return Choice("R14", stroke.opponent, OFFERED["R14"])
 
 
 def scratch_on_break(stroke: Stroke, found: Finding) -> bool:
@@ -86,14 +97,14 @@ def ball_off_on_break(stroke: Stroke, found: Finding) -> Choice | None:
     """R16: after a legal break with an object ball off the table, accept the position or ball in hand."""
     if not legal_break(stroke) or worst(found) != "R36":
         return None
-    return Choice("R16", stroke.opponent, _AFTER_FOUL)
+    return Choice("R16", stroke.opponent, OFFERED["R16"])
 
 
 def other_foul_on_break(stroke: Stroke, found: Finding) -> Choice | None:
     """R17: the same choice after a legal break with any other foul."""
     if not legal_break(stroke) or not found or worst(found) in ("R32", "R36"):
         return None
-    return Choice("R17", stroke.opponent, _AFTER_FOUL)
+    return Choice("R17", stroke.opponent, OFFERED["R17"])
 
 
 def breaker_continues(stroke: Stroke) -> Finding:

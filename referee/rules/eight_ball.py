@@ -27,6 +27,7 @@ from referee.rules.decisions import decide
 from referee.rules.ending import FROM_OUTSIDE
 from referee.rules.fouls import MISCUES, find_fouls
 from referee.rules.judge import Judgement, judge, rules_cited
+from referee.rules.position import begin_from
 from referee.rules.rack import new_rack
 from referee.rules.stalemate import Limits, over, stalemate, stroke_limit
 from referee.rules.stroke import read_stroke
@@ -45,11 +46,25 @@ class EightBall:
     table: Table
     limits: Limits = field(default_factory=Limits)
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.table, Table):
+            raise InvalidGame("table", self.table, "a physics.Table, such as Table.olympiad()")
+        if not isinstance(self.limits, Limits):
+            raise InvalidGame("limits", self.limits, "a referee.Limits")
+
     def new_game(self, rack_seed: int | bytes, breaker: int = 0) -> Game:
         """A racked table, ``breaker`` (seat 0 or 1) to break with ball in hand behind the head string."""
-        if breaker not in (0, 1):
+        if isinstance(breaker, bool) or breaker not in (0, 1):
             raise InvalidGame("breaker", breaker, "seat 0 or 1")
         return _racked(Game(new_rack(self.table, rack_seed), Phase.BREAK, breaker, breaker))
+
+    def begin_from(self, game: Game) -> Game:
+        """A new game that stands as `game` does: every counter at zero, the decisions those of its choice.
+
+        Raises:
+            InvalidGame: nothing that could be played on from, naming the field.
+        """
+        return begin_from(self.table, game)
 
     def rerack(self, game: Game, rack_seed: int | bytes) -> Game:
         """The game with a new rack, after a ruling with ``rerack``; ``game.turn`` breaks.
@@ -69,10 +84,9 @@ class EightBall:
         """All reasons why ``action`` cannot be accepted; empty when it may be played.
 
         Raises:
-            InvalidAction: not an ``Action`` at all.
+            InvalidAction: not an ``Action`` at all. InvalidGame: not a ``Game``.
         """
-        if not isinstance(action, Action):
-            raise InvalidAction("action", action, "a referee.Action")
+        _require_values(game, action)
         return check_action(self.table, game, action)
 
     def apply(self, game: Game, action: Action, facts: Facts | None = None, final: TableState | None = None) -> Ruling:
@@ -86,12 +100,15 @@ class EightBall:
         Raises:
             InvalidAction: a kind of action the game does not await, or facts that do not go with it.
         """
+        _require_values(game, action)
         for refusal in refuse_phase(game, action):
             raise InvalidAction(refusal.field, refusal.value, refusal.allowed)
         if action.decision is not None:
             return self._decide(game, action.decision)
-        if facts is None or final is None:
-            raise InvalidAction("facts", facts, "the facts and the final table of the stroke")
+        if not isinstance(facts, Facts):
+            raise InvalidAction("facts", facts, "the physics.Facts of the stroke")
+        if not isinstance(final, TableState):
+            raise InvalidAction("final", final, "the physics.TableState after the stroke")
         if facts.status not in _RULED:
             raise InvalidAction("facts.status", Status(facts.status).name, f"one of {_RULED_NAMES}")
         return self._rule(game, action, facts, final)
@@ -161,6 +178,14 @@ class EightBall:
 
 _RULED = (Status.AT_REST, Status.EVENT_LIMIT, *MISCUES)
 _RULED_NAMES = ", ".join(status.name for status in _RULED)
+
+
+def _require_values(game: Game, action: Action) -> None:
+    """A game and an action, whatever a caller without a type checker gives."""
+    if not isinstance(game, Game):
+        raise InvalidGame("game", game, "a referee.Game")
+    if not isinstance(action, Action):
+        raise InvalidAction("action", action, "a referee.Action")
 
 
 def _racked(game: Game) -> Game:

@@ -20,6 +20,7 @@ from referee.wire.physics import (
     SimulateAnswer,
     SimulateRequest,
 )
+from referee.wire.positions import Position
 from referee.wire.problems import PROBLEM_JSON, Fault, Problem, ProblemCode, shown
 from referee.wire.shots import (
     CallRequest,
@@ -71,6 +72,7 @@ __all__ = [
     "NoiseView",
     "OutcomeView",
     "Pocketed",
+    "Position",
     "Problem",
     "ProblemCode",
     "RulingView",

@@ -6,9 +6,11 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field
 
 from referee.wire.outcomes import OutcomeView
+from referee.wire.positions import Position
 from referee.wire.terms import ClockTerms, NoiseTerms, NoiseView
 from referee.wire.values import (
     Digest,
+    Flag,
     Identifier,
     Integer,
     Message,
@@ -34,6 +36,7 @@ class MatchRequest(Request):
         games: how many.
         seed: the secret match seed, 64 hexadecimal digits, from which racks, noise and the first breaker
             come. Only an organiser may give one, to repeat a match; otherwise the server draws it.
+        start: where every game begins instead of a break; such a match is unrated.
     """
 
     model_config = ConfigDict(
@@ -58,6 +61,7 @@ class MatchRequest(Request):
     noise: NoiseTerms = NoiseTerms()
     clock: ClockTerms = ClockTerms()
     seed: Digest | None = None
+    start: Position | None = None
 
 
 MatchStatus = Literal["challenged", "running", "finished", "aborted"]
@@ -100,6 +104,8 @@ class MatchView(Message):
         score: games won by seat, half a point for a draw.
         winner: seat, when finished and not drawn.
         challenger: seat of the agent who challenged; null for a match by an organiser.
+        start: the position the games begin from; null when they begin with a break.
+        rated: whether the match counts for ratings; from a given position none does.
     """
 
     id: Identifier
@@ -116,6 +122,8 @@ class MatchView(Message):
     score: tuple[Number, Number]
     winner: Seat | None
     played: tuple[GameSummary, ...]
+    start: Position | None
+    rated: Flag
     created_at: datetime
 
 

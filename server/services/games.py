@@ -12,13 +12,13 @@ from sqlalchemy import Connection, Row, func, insert, select, update
 
 from physics import Table
 from referee.game import EndReason, Game
-from referee.play import GameSeeds, MatchSeed, NoiseModel, start_game
+from referee.play import GameSeeds, MatchSeed, NoiseModel, begin_game
 from referee.record import Header, canonical, end_entry
 from referee.rules import EightBall
 from server.errors import StaleVersion
 from server.services import notices
 from server.services.context import Writing
-from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of
+from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, position_of, score_of
 from server.store.tables import games, matches, moves
 
 FIRST_VERSION = 1
@@ -27,8 +27,8 @@ FIRST_VERSION = 1
 def begin(writing: Writing, match: Row[Any], number: int) -> None:
     """Rack the match's next game; its commitment is public from here on."""
     seed = MatchSeed.from_hex(match.seed)
-    seeds, breaker = seed.game(number), seed.breaker(number)
-    game = start_game(EightBall(Table.from_dict(match.table)), seeds, breaker)
+    seeds = seed.game(number)
+    game = begin_game(EightBall(Table.from_dict(match.table)), seed, number, position_of(match))
     header = _header(writing.connection, match, number, seeds, game)
     row = {
         "id": header.game,
@@ -36,7 +36,7 @@ def begin(writing: Writing, match: Row[Any], number: int) -> None:
         "number": number,
         "noise_seed": seeds.noise.hex(),
         "commitment": seeds.commitment,
-        "breaker": breaker,
+        "breaker": game.breaker,
         "state": game.to_dict(),
         "version": FIRST_VERSION,
         "status": RUNNING,
@@ -89,6 +89,7 @@ def _header(connection: Connection, match: Row[Any], number: int, seeds: GameSee
         number=number,
         players=player_names(connection, match),
         allowance_ns=match.allowance,
+        given=match.start is not None,
     )
 
 

@@ -11,7 +11,7 @@ from referee.game import Game
 from referee.play import Clocks, GameSeeds, MatchSeed, NoiseModel
 from referee.play.clock import SECOND_NS
 from referee.rules import EightBall
-from referee.wire import ClockView, GameTerms, NoiseView, StrokeView, View
+from referee.wire import ClockView, GameTerms, NoiseView, Position, StrokeView, View
 from server.errors import Forbidden, NotFound
 from server.security.callers import Caller
 from server.store.tables import agents, games, matches, moves
@@ -157,6 +157,14 @@ def player_names(connection: Connection, match: Row[Any]) -> tuple[str, str]:
     pair = select(agents.c.id, agents.c.name).where(agents.c.id.in_((match.seat_0, match.seat_1)))
     names = {row.id: row.name for row in connection.execute(pair)}
     return names[match.seat_0], names[match.seat_1]
+
+
+def position_of(match: Row[Any]) -> Game | None:
+    """Where the match's games begin, None when they begin with a break."""
+    if match.start is None:
+        return None
+    rules = EightBall(Table.from_dict(match.table))
+    return rules.begin_from(Position.model_validate(match.start).to_game())
 
 
 def score_of(connection: Connection, match_id: str) -> tuple[float, float]:

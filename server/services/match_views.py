@@ -7,8 +7,8 @@ from sqlalchemy import Connection, Row, select
 from referee.game import Outcome
 from referee.play import MatchSeed
 from referee.play.clock import SECOND_NS
-from referee.wire import ClockTerms, GameSummary, MatchView, OutcomeView
-from server.services.live import RUNNING, noise_view, player_names, score_of
+from referee.wire import ClockTerms, GameSummary, MatchView, OutcomeView, Position
+from server.services.live import RUNNING, noise_view, player_names, position_of, score_of
 from server.services.notices import winner_of
 from server.services.time import date_time
 from server.store.tables import games
@@ -29,12 +29,19 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
         noise=noise_view(match),
         clock=ClockTerms(seconds=match.allowance / SECOND_NS),
         challenger=None if match.challenger is None else int(match.challenger == match.seat_1),
-        first_breaker=None if match.started_at is None else MatchSeed.from_hex(match.seed).first_breaker,
+        first_breaker=None if match.started_at is None else _first_breaker(match),
         score=score,
         winner=winner_of(match.status, score),
         played=tuple(GameSummary(**summary(row)) for row in played),
+        start=None if match.start is None else Position.model_validate(match.start),
+        rated=match.start is None,
         created_at=date_time(match.created_at),
     )
+
+
+def _first_breaker(match: Row[Any]) -> int:
+    position = position_of(match)
+    return MatchSeed.from_hex(match.seed).first_breaker if position is None else position.breaker
 
 
 def summary(row: Row[Any]) -> dict[str, Any]:

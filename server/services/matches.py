@@ -5,9 +5,11 @@ from typing import Any, Final, get_args
 
 from sqlalchemy import Connection, Row, insert, or_, select, update
 
+from physics import PhysicsError, Table
+from referee import EightBall, InvalidGame
 from referee.play import nanoseconds
 from referee.wire import MatchList, MatchRequest, MatchStatus, MatchView
-from server.errors import Forbidden, NotFound, WrongStatus, invalid_field
+from server.errors import Forbidden, NotFound, WrongStatus, invalid_field, invalid_physics
 from server.security.callers import Caller
 from server.services import games, match_views
 from server.services.commands import Answer, Command, once, parse
@@ -70,6 +72,7 @@ def _created(writing: Writing, command: Command) -> Answer:
     request = parse(command, MatchRequest)
     _require_right(request, command.caller)
     _require_agents(writing.connection, request)
+    _require_start(request)
     match = _insert(writing, request, command.caller)
     if match.status == "running":
         games.begin(writing, match, 0)
@@ -93,6 +96,18 @@ def _require_agents(connection: Connection, request: MatchRequest) -> None:
             raise invalid_field(f"agents.{seat}", agent_id, "the id of a registered agent")
 
 
+def _require_start(request: MatchRequest) -> None:
+    """What the match begins from has to be a position that can be played on from, on its table."""
+    if request.start is None:
+        return
+    try:
+        EightBall(Table.from_dict(request.table)).begin_from(request.start.to_game())
+    except PhysicsError as error:
+        raise invalid_physics(error, ("start",)) from error
+    except InvalidGame as error:
+        raise invalid_field(f"start.{error.field}", error.value, error.allowed) from error
+
+
 def _insert(writing: Writing, request: MatchRequest, caller: Caller) -> Row[Any]:
     organised = caller.is_organiser
     row = {
@@ -108,6 +123,7 @@ def _insert(writing: Writing, request: MatchRequest, caller: Caller) -> Row[Any]
         "noise_told": request.noise.told,
         "allowance": nanoseconds(request.clock.seconds),
         "seed": request.seed or secrets.token_hex(32),
+        "start": None if request.start is None else request.start.model_dump(mode="json"),
         "created_at": writing.now,
         "started_at": writing.now if organised else None,
     }

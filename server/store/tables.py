@@ -67,6 +67,7 @@ matches = Table(
     Column("noise_told", Boolean, nullable=False),
     Column("allowance", BigInteger, nullable=False),
     Column("seed", String(64), nullable=False),
+    Column("start", JSON(none_as_null=True)),
     Column("created_at", BigInteger, nullable=False),
     Column("started_at", BigInteger),
     Column("ended_at", BigInteger),

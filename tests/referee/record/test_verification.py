@@ -287,8 +287,9 @@ def test_junk_anywhere_is_an_answer_and_never_an_exception(data):
     assert not verification.ok or key in _BELIEVED or before == node[key]
 
 
-_BELIEVED = {"game", "match", "number", "players", "elapsed_ns", "allowance_ns", "told", 0, 1}
-"""What a record says about who played, where, and how long they thought, no replay can contradict."""
+_BELIEVED = {"game", "match", "number", "players", "elapsed_ns", "allowance_ns", "told", "given", 0, 1}
+"""What a record says about who played, where, how long they thought, and who chose the start, no replay can
+contradict."""
 
 
 @cache

@@ -45,6 +45,7 @@ def upgrade() -> None:
         sa.Column("noise_told", sa.Boolean(), nullable=False),
         sa.Column("allowance", sa.BigInteger(), nullable=False),
         sa.Column("seed", sa.String(length=64), nullable=False),
+        sa.Column("start", sa.JSON(), nullable=True),
         sa.Column("created_at", sa.BigInteger(), nullable=False),
         sa.Column("started_at", sa.BigInteger(), nullable=True),
         sa.Column("ended_at", sa.BigInteger(), nullable=True),
