@@ -16,8 +16,9 @@ if TYPE_CHECKING:
     from client.http import Pooliad
     from client.local import LocalMatch, play
     from client.retry import Retry
-    from client.run import run_agent
+    from client.run import run_agent, serve_agent
     from client.simulator import Simulator
+    from client.sparring import spar
     from referee import SAFETY, Action, BudgetSpent, Call, Decision
     from referee.wire import GameOver, MatchRequest, View
 
@@ -41,6 +42,8 @@ __all__ = [
     "load",
     "play",
     "run_agent",
+    "serve_agent",
+    "spar",
 ]
 
 _HOMES = {
@@ -54,6 +57,8 @@ _HOMES = {
     "play": "client.local",
     "Retry": "client.retry",
     "run_agent": "client.run",
+    "serve_agent": "client.run",
+    "spar": "client.sparring",
     "Simulator": "client.simulator",
     "SAFETY": "referee",
     "Action": "referee",

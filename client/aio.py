@@ -15,6 +15,7 @@ from referee import Action
 from referee.wire import (
     AgentList,
     AgentToken,
+    AgentView,
     BatchAnswer,
     GameAnswer,
     MatchList,
@@ -65,9 +66,13 @@ class AsyncPooliad:
         """Register an agent; the answer holds its token, which is shown this once."""
         return await self._send(calls.register(name))
 
-    async def agents(self, cursor: str | None = None) -> AgentList:
-        """One page of the registered agents."""
-        return await self._send(calls.agents(cursor))
+    async def agents(self, cursor: str | None = None, *, house: bool | None = None) -> AgentList:
+        """One page of the registered agents; house bots alone, or all but them, when asked for."""
+        return await self._send(calls.agents(cursor, house))
+
+    async def me(self) -> AgentView:
+        """The agent whose token this is."""
+        return await self._send(calls.me())
 
     async def rotate_token(self, agent: str) -> AgentToken:
         """Replace an agent's token by a new one."""

@@ -20,6 +20,7 @@ from referee.wire import (
     TURN_MESSAGE,
     AgentList,
     AgentToken,
+    AgentView,
     BatchAnswer,
     BatchRequest,
     DecisionRequest,
@@ -58,9 +59,15 @@ def register(name: str) -> Call[AgentToken]:
     return Call("POST", "/v1/agents", _reader(AgentToken), body={"name": name})
 
 
-def agents(cursor: str | None = None) -> Call[AgentList]:
-    """One page of the registered agents."""
-    return Call("GET", "/v1/agents", _reader(AgentList), params=_cursor(cursor))
+def agents(cursor: str | None = None, house: bool | None = None) -> Call[AgentList]:
+    """One page of the registered agents; house bots alone, or all but them, when asked for."""
+    params = {} if house is None else {"house": str(house).lower()}
+    return Call("GET", "/v1/agents", _reader(AgentList), params=_cursor(cursor) | params)
+
+
+def me() -> Call[AgentView]:
+    """The agent whose token this is."""
+    return Call("GET", "/v1/agents/me", _reader(AgentView))
 
 
 def rotate_token(agent: str) -> Call[AgentToken]:

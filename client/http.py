@@ -15,6 +15,7 @@ from referee import Action
 from referee.wire import (
     AgentList,
     AgentToken,
+    AgentView,
     BatchAnswer,
     GameAnswer,
     MatchList,
@@ -68,9 +69,13 @@ class Pooliad:
         """Register an agent; the answer holds its token, which is shown this once."""
         return self._send(calls.register(name))
 
-    def agents(self, cursor: str | None = None) -> AgentList:
-        """One page of the registered agents."""
-        return self._send(calls.agents(cursor))
+    def agents(self, cursor: str | None = None, *, house: bool | None = None) -> AgentList:
+        """One page of the registered agents; house bots alone, or all but them, when asked for."""
+        return self._send(calls.agents(cursor, house))
+
+    def me(self) -> AgentView:
+        """The agent whose token this is."""
+        return self._send(calls.me())
 
     def rotate_token(self, agent: str) -> AgentToken:
         """Replace an agent's token by a new one."""

@@ -2,11 +2,13 @@
 
 import logging
 import time
+from typing import NoReturn
 
 import httpx2
 from pydantic import ValidationError
 
 from client.agents.registry import Player, factory_of
+from client.calls import TurnMessage
 from client.errors import Conflict, StaleVersion, Unprocessable
 from client.http import Pooliad
 from client.players import Players
@@ -28,6 +30,7 @@ def run_agent(
     *,
     retry: Retry | None = None,
     transport: httpx2.BaseTransport | None = None,
+    match: str | None = None,
 ) -> MatchOver:
     """Play every turn the server offers until a match is over, and return how it ended.
 
@@ -38,21 +41,38 @@ def run_agent(
         agent: an `Agent` class, a function that makes an instance (called once for each game), or a name.
         url: the server's address. token: the agent's.
         retry, transport: as for `client.Pooliad`.
+        match: id of the match whose end is waited for; any that was played in unless given.
 
     Raises:
         client.PooliadError: there is no agent of this name, the token is not accepted, or the server stays
             away for longer than `retry` waits.
     """
     with Pooliad(url, token, retry=retry, transport=transport) as server:
-        return _Run(server, Players(factory_of(agent))).until_over()
+        return _Run(server, Players(factory_of(agent)), match).until_over()
+
+
+def serve_agent(
+    agent: Player,
+    url: str,
+    token: str,
+    *,
+    retry: Retry | None = None,
+    transport: httpx2.BaseTransport | None = None,
+) -> NoReturn:
+    """Play every turn the server offers, match after match, as house bots do. Arguments and errors as `run_agent`."""
+    with Pooliad(url, token, retry=retry, transport=transport) as server:
+        run = _Run(server, Players(factory_of(agent)))
+        while True:
+            run.next_message()
 
 
 class _Run:
     """One agent at one server."""
 
-    def __init__(self, server: Pooliad, players: Players) -> None:
+    def __init__(self, server: Pooliad, players: Players, match: str | None = None) -> None:
         self._server = server
         self._players = players
+        self._match = match
         self._last: View | None = None
         self._played_in: set[str] = set()
         self._failures = 0
@@ -60,17 +80,21 @@ class _Run:
     def until_over(self) -> MatchOver:
         """Answer messages until the one that says the match is over."""
         while True:
-            match self._server.turns(POLL):
-                case Turn(view=view):
-                    self._play(view)
-                case GameOver() as over:
-                    self._players.game_over(over)
-                case MatchOver() as over:
-                    if self._is_the_end(over):
-                        return over
-                case None:
-                    if (missed := self._missed_end()) is not None:
-                        return missed
+            message = self.next_message()
+            if isinstance(message, MatchOver) and self._is_the_end(message):
+                return message
+            if message is None and (missed := self._missed_end()) is not None:
+                return missed
+
+    def next_message(self) -> TurnMessage | None:
+        """Wait for a message, answer it if it is a turn, and return it; None when none came."""
+        message = self._server.turns(POLL)
+        match message:
+            case Turn(view=view):
+                self._play(view)
+            case GameOver() as over:
+                self._players.game_over(over)
+        return message
 
     def _play(self, view: View) -> None:
         """Act while it is this agent's turn; after a failed try the turn is read again."""
@@ -101,7 +125,9 @@ class _Run:
             time.sleep(min(LONGEST_PAUSE, FIRST_PAUSE * 2.0 ** min(self._failures - 1, 10)))
 
     def _is_the_end(self, over: MatchOver) -> bool:
-        """Whether the match was played here, or none of this agent's matches is left to play."""
+        """Whether it is the match waited for, or one played here, or none of this agent's is left to play."""
+        if self._match is not None:
+            return over.match == self._match
         if over.match in self._played_in:
             return True
         agent = self._server.match(over.match).agents[over.seat]
@@ -109,11 +135,11 @@ class _Run:
 
     def _missed_end(self) -> MatchOver | None:
         """The end of the match, when the message that told it was lost on its way."""
-        if self._last is None or self._last.seat is None:
+        watched = self._match or (None if self._last is None else self._last.match)
+        if watched is None:
             return None
-        match = self._server.match(self._last.match)
+        match = self._server.match(watched)
         if match.status not in ("finished", "aborted"):
             return None
-        return MatchOver(
-            match=match.id, seat=self._last.seat, status=match.status, winner=match.winner, score=match.score
-        )
+        seat = match.agents.index(self._server.me().id)
+        return MatchOver(match=match.id, seat=seat, status=match.status, winner=match.winner, score=match.score)

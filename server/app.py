@@ -14,6 +14,7 @@ from server.routes import ROUTERS
 from server.security.body_gate import BodyGate
 from server.services import warmup
 from server.services.context import Context
+from server.services.house_bots import House
 from server.services.spectators import Spectators
 from server.services.timer import Timer
 from server.settings import Settings
@@ -45,6 +46,7 @@ def create_app(settings: Settings) -> FastAPI:
     )
     app.state.context = context
     app.state.spectators = Spectators(context)
+    app.state.house = House(context)
     app.openapi = partial(openapi.document, app)  # type: ignore[method-assign]
     app.add_middleware(BodyGate, limit=settings.body_limit, seconds=settings.body_seconds, time=context.time)
     app.state.endpoints = (*app.routes, *(route for router in ROUTERS for route in router.routes))
@@ -59,7 +61,7 @@ def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManag
         upgrade(context.database)
         context.wakeups.start()
         warmup.start(context)
-        async with Timer(context).running(), app.state.spectators.running():
+        async with Timer(context).running(), app.state.spectators.running(), app.state.house.running():
             yield
         context.wakeups.drain()
         context.database.dispose()

@@ -14,6 +14,7 @@ import uvicorn
 
 from server.app import create_app
 from server.services.context import Context
+from server.services.house_bots import House
 from server.settings import Settings
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
@@ -22,9 +23,10 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 class _Server(uvicorn.Server):
     """uvicorn, draining at the signal itself: its own hook comes after the connections it waits for."""
 
-    def __init__(self, config: uvicorn.Config, context: Context) -> None:
+    def __init__(self, config: uvicorn.Config, context: Context, house: House) -> None:
         super().__init__(config)
         self._context = context
+        self._house = house
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Start, then announce the address."""
@@ -32,6 +34,7 @@ class _Server(uvicorn.Server):
         if self.started:
             url = _url(*self.servers[0].sockets[0].getsockname()[:2])
             print(json.dumps({"event": "listening", "url": url}), flush=True)  # noqa: T201
+            self._house.listening(url)
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
@@ -69,7 +72,7 @@ def serve(settings: Settings, host: str, port: int) -> None:
         log_level="warning",
         timeout_graceful_shutdown=max(1, round(settings.drain_seconds)),
     )
-    _Server(config, app.state.context).run()
+    _Server(config, app.state.context, app.state.house).run()
 
 
 def _url(host: str, port: int) -> str:

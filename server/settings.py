@@ -19,7 +19,8 @@ class Settings:
 
     `organiser_digest` is the SHA-256 (hex) of the organiser's token, None when nobody organises; the token
     itself is never kept. `fetch_grace` is how long a turn may lie unfetched before its clock starts by
-    itself.
+    itself. `house_bots` names the agents the server runs itself, `NAME` or `NAME=AGENT`, apart by `;`;
+    `house_places` is how many matches each of them plays at a time.
     """
 
     database: str = "sqlite:///pooliad.db"
@@ -33,6 +34,8 @@ class Settings:
     body_limit: int = 2 * 1024 * 1024
     body_seconds: float = 10.0
     drain_seconds: float = 5.0
+    house_bots: str = ""
+    house_places: int = 4
 
     def __post_init__(self) -> None:
         if not self.database.startswith("sqlite:///") or self.database == "sqlite:///:memory:":

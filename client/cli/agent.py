@@ -1,45 +1,104 @@
 """`pooliad agent`: play on a server."""
 
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from client.cli.output import USAGE, Json, emit, fail, say
 from client.cli.players import load_player
 
+if TYPE_CHECKING:
+    from referee import Game
+    from referee.wire import MatchOver
+
+Name = Annotated[str, typer.Argument(help="random, greedy, or module:Class of your own.")]
+Url = Annotated[str, typer.Option(envvar="POOLIAD_URL", help="Address of the server.")]
+Token = Annotated[str, typer.Option(envvar="POOLIAD_TOKEN", help="The agent's token; better in the environment.")]
+Seed = Annotated[int | None, typer.Option(min=0, help="Makes a shipped agent repeat its choices.")]
+
 
 def commands() -> typer.Typer:
     """The subcommands."""
     app = typer.Typer(help="Run agents.", no_args_is_help=True)
     app.command("run")(run)
-    app.callback()(_group)
+    app.command("spar")(spar)
     return app
 
 
-def _group() -> None:
-    """Run agents."""
-
-
 def run(
-    name: Annotated[str, typer.Argument(help="random, greedy, or module:Class of your own.")],
-    url: Annotated[str, typer.Option(envvar="POOLIAD_URL", help="Address of the server.")],
-    token: Annotated[str, typer.Option(envvar="POOLIAD_TOKEN", help="The agent's token; better in the environment.")],
-    seed: Annotated[int | None, typer.Option(min=0, help="Makes a shipped agent repeat its choices.")] = None,
+    name: Name,
+    url: Url,
+    token: Token,
+    seed: Seed = None,
+    forever: Annotated[bool, typer.Option("--forever", help="Go on with the next match when one is over.")] = False,
     as_json: Json = False,
 ) -> None:
     """Play every turn of an agent on a server until its match is over.
 
     What the agent does wrong is written to standard error.
     """
+    from client.run import run_agent, serve_agent
+
+    _prepare(token)
+    player = load_player(name, seed)
+    if forever:
+        serve_agent(player, url, token)
+    _report(run_agent(player, url, token), as_json)
+
+
+def spar(
+    name: Name,
+    bot: Annotated[str, typer.Argument(help="A house bot of the server.")],
+    url: Url,
+    token: Token,
+    games: Annotated[int, typer.Option(min=1, max=10, help="Games in the match.")] = 1,
+    noise: Annotated[float, typer.Option(min=0.0, max=5.0, help="Noise level; 1 is the Olympiad's.")] = 1.0,
+    seconds: Annotated[float, typer.Option(min=1.0, max=900.0, help="Thinking time of each player in a game.")] = 300.0,
+    start: Annotated[
+        Path | None, typer.Option(help="JSON file with a position to begin from, as docs/protocol.md has it.")
+    ] = None,
+    seed: Seed = None,
+    as_json: Json = False,
+) -> None:
+    """Challenge a house bot of the server and play the match."""
+    from client.sparring import spar as play
+
+    _prepare(token)
+    over = play(
+        load_player(name, seed), url, token, bot, games=games, noise=noise, seconds=seconds, start=_position(start)
+    )
+    _report(over, as_json)
+
+
+def _prepare(token: str) -> None:
+    """Look at the token, and let the agent's log be seen."""
     import logging
     import sys
-
-    from client.run import run_agent
 
     if not _can_be_sent(token):
         fail("--token holds characters that no token has: letters, digits and signs of ASCII only", USAGE)
     logging.basicConfig(stream=sys.stderr, format="%(asctime)s %(levelname)s %(message)s")
-    over = run_agent(load_player(name, seed), url, token)
+
+
+def _position(file: Path | None) -> "Game | None":
+    """The position in a file; leaves the command when it is none."""
+    from pydantic import ValidationError
+
+    from referee.wire import Position
+
+    if file is None:
+        return None
+    try:
+        return Position.model_validate_json(file.read_bytes()).to_game()
+    except OSError as error:
+        fail(f"{file} cannot be read: {error}", USAGE)
+    except (ValidationError, ValueError) as error:
+        fail(f"{file} is no position: {error}", USAGE)
+
+
+def _report(over: "MatchOver", as_json: bool) -> None:
+    """How the match ended."""
     if as_json:
         emit(over.model_dump(mode="json"))
     else:

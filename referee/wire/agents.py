@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import ConfigDict, Field, StringConstraints
 
-from referee.wire.values import Identifier, Message, Request
+from referee.wire.values import Flag, Identifier, Message, Request
 
 AgentName = Annotated[str, StringConstraints(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.-]*$")]
 
@@ -19,10 +19,15 @@ class AgentRequest(Request):
 
 
 class AgentView(Message):
-    """An agent as everybody sees it."""
+    """An agent as everybody sees it.
+
+    Attributes:
+        house: the server runs it itself; it accepts challenges.
+    """
 
     id: Identifier
     name: str
+    house: Flag
     created_at: datetime
 
 

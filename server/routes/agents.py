@@ -1,9 +1,11 @@
 """Registration and tokens."""
 
-from fastapi import APIRouter, Response
+from typing import Annotated
 
-from referee.wire import AgentList, AgentRequest, AgentToken
-from server.errors import Invalid, NameTaken, Unauthorized
+from fastapi import APIRouter, Query, Response
+
+from referee.wire import AgentList, AgentRequest, AgentToken, AgentView
+from server.errors import Forbidden, Invalid, NameTaken, Unauthorized, invalid_field
 from server.routes.dependencies import ANYBODY, Authenticated, Body, ContentType, Cursor, Limit, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import agents
@@ -23,9 +25,20 @@ def register(context: Server, body: Body, content_type: ContentType = None) -> R
 
 
 @router.get("", **describe(Invalid, Unauthorized, token=False), dependencies=[ANYBODY], summary="All agents")
-def listing(context: Server, cursor: Cursor, limit: Limit) -> AgentList:
+def listing(
+    context: Server,
+    cursor: Cursor,
+    limit: Limit,
+    house: Annotated[str | None, Query(description="true: only house bots; false: all but them")] = None,
+) -> AgentList:
     """Agents in order of registration."""
-    return agents.listing(context, cursor, limit)
+    return agents.listing(context, _flag("house", house), cursor, limit)
+
+
+@router.get("/me", **describe(Forbidden), summary="The calling agent")
+def me(context: Server, caller: Authenticated) -> AgentView:
+    """Whose token this is."""
+    return agents.me(context, caller)
 
 
 @router.post(
@@ -43,3 +56,9 @@ def revoke(agent_id: str, context: Server, caller: Authenticated) -> Response:
     """The agent is left without a token; the organiser can give it a new one."""
     agents.revoke(context, agent_id, caller)
     return Response(status_code=204)
+
+
+def _flag(field: str, text: str | None) -> bool | None:
+    if text not in (None, "true", "false"):
+        raise invalid_field(field, text, "true or false")
+    return None if text is None else text == "true"

@@ -27,16 +27,24 @@ def register(context: Context, request: AgentRequest) -> Answer:
                 value=request.name,
                 allowed="another name",
             )
-        connection.execute(insert(agents).values(id=agent_id, name=request.name, created_at=now))
+        connection.execute(insert(agents).values(id=agent_id, name=request.name, house=False, created_at=now))
         token = new_token()
         _issue(connection, agent_id, token, now)
         agent = _agent(connection, agent_id)
     return Answer.of(201, AgentToken(agent=_view(agent), token=token))
 
 
-def listing(context: Context, cursor: int, limit: int) -> AgentList:
-    """Agents in order of registration, from row `cursor` on."""
+def me(context: Context, caller: Caller) -> AgentView:
+    """The calling agent; raises `Forbidden` for the organiser."""
+    with context.database.reading() as connection:
+        return _view(_agent(connection, caller.require_agent()))
+
+
+def listing(context: Context, house: bool | None, cursor: int, limit: int) -> AgentList:
+    """Agents in order of registration, from row `cursor` on; house bots alone, or all but them, when asked for."""
     query = select(agents).order_by(agents.c.created_at, agents.c.id).offset(cursor).limit(limit + 1)
+    if house is not None:
+        query = query.where(agents.c.house.is_(house))
     with context.database.reading() as connection:
         rows = connection.execute(query).all()
     more = str(cursor + limit) if len(rows) > limit else None
@@ -53,6 +61,14 @@ def rotate(context: Context, agent_id: str, command: Command) -> Answer:
         agent = _owned(connection, agent_id, command.caller)
         salt = once(connection, command, lambda: _rotated(connection, agent_id, command)).body.decode()
     return Answer.of(200, AgentToken(agent=_view(agent), token=derived_token(command.caller.token, salt)))
+
+
+def renewed_token(connection: Connection, agent_id: str, now: int) -> str:
+    """A new token for an agent; all others of its are void."""
+    token = new_token()
+    _revoke(connection, agent_id, now)
+    _issue(connection, agent_id, token, now)
+    return token
 
 
 def _rotated(connection: Connection, agent_id: str, command: Command) -> Answer:
@@ -92,4 +108,4 @@ def _revoke(connection: Connection, agent_id: str, now: int) -> None:
 
 
 def _view(row: Row[Any]) -> AgentView:
-    return AgentView(id=row.id, name=row.name, created_at=date_time(row.created_at))
+    return AgentView(id=row.id, name=row.name, house=row.house, created_at=date_time(row.created_at))

@@ -11,7 +11,7 @@ from referee.play import nanoseconds
 from referee.wire import MatchList, MatchRequest, MatchStatus, MatchView
 from server.errors import Forbidden, NotFound, WrongStatus, invalid_field, invalid_physics
 from server.security.callers import Caller
-from server.services import games, match_views
+from server.services import games, house, match_views
 from server.services.commands import Answer, Command, once, parse
 from server.services.context import Context, Writing
 from server.store.tables import agents, matches
@@ -73,9 +73,12 @@ def _created(writing: Writing, command: Command) -> Answer:
     _require_right(request, command.caller)
     _require_agents(writing.connection, request)
     _require_start(request)
+    house.require_terms(writing.connection, request, command.caller)
     match = _insert(writing, request, command.caller)
     if match.status == "running":
         games.begin(writing, match, 0)
+    elif house.has_place(writing, match):
+        match = start(writing, match)
     return Answer.of(201, match_views.view(writing.connection, match), location=f"/v1/matches/{match.id}")
 
 
@@ -134,9 +137,14 @@ def _insert(writing: Writing, request: MatchRequest, caller: Caller) -> Row[Any]
 def _accepted(writing: Writing, match: Row[Any]) -> Answer:
     if match.status != "challenged":
         raise WrongStatus(f"the match is {match.status}; only a challenge can be accepted")
+    return Answer.of(200, match_views.view(writing.connection, start(writing, match)))
+
+
+def start(writing: Writing, match: Row[Any]) -> Row[Any]:
+    """Begin the first game of a challenge that is accepted; the match as it is now."""
     match = _update(writing.connection, match.id, status="running", started_at=writing.now)
     games.begin(writing, match, 0)
-    return Answer.of(200, match_views.view(writing.connection, match))
+    return match
 
 
 def _aborted(writing: Writing, match: Row[Any]) -> Answer:

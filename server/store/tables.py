@@ -40,8 +40,19 @@ agents = Table(
     metadata,
     Column("id", Identifier, primary_key=True),
     Column("name", String(64), nullable=False, unique=True),
+    Column("house", Boolean, nullable=False),
     Column("created_at", BigInteger, nullable=False),
 )
+"""`house`: the server runs it itself."""
+
+house = Table(
+    "house",
+    metadata,
+    Column("agent_id", Identifier, ForeignKey("agents.id"), primary_key=True),
+    Column("holder", Identifier, nullable=False),
+    Column("until", BigInteger, nullable=False),
+)
+"""Which server process runs which house bot, and until when it may be believed to."""
 
 tokens = Table(
     "tokens",

@@ -29,6 +29,8 @@ def test_everything_exported_exists():
         "load",
         "play",
         "run_agent",
+        "serve_agent",
+        "spar",
     }
     assert all(getattr(client, name) is not None for name in client.__all__)
     assert set(client.__all__) <= set(dir(client))

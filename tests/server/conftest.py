@@ -228,6 +228,12 @@ def table_at() -> Callable[..., Table]:
     return Table
 
 
+@pytest.fixture(scope="session")
+def player_at() -> Callable[[Running], Player]:
+    """A fresh agent at a server of the test's own."""
+    return register
+
+
 @pytest.fixture
 def break_shot() -> dict[str, Any]:
     return BREAK

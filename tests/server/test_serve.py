@@ -116,7 +116,7 @@ def test_a_transaction_that_raises_leaves_nothing(tmp_path):
 
     def fail():
         with database.writing() as connection:
-            connection.exec_driver_sql("INSERT INTO agents (id, name, created_at) VALUES ('a', 'a', 1)")
+            connection.exec_driver_sql("INSERT INTO agents (id, name, house, created_at) VALUES ('a', 'a', 0, 1)")
             raise RuntimeError("in the middle")
 
     with pytest.raises(RuntimeError, match="in the middle"):

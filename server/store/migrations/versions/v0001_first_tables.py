@@ -15,9 +15,18 @@ def upgrade() -> None:
         "agents",
         sa.Column("id", sa.String(length=64), nullable=False),
         sa.Column("name", sa.String(length=64), nullable=False),
+        sa.Column("house", sa.Boolean(), nullable=False),
         sa.Column("created_at", sa.BigInteger(), nullable=False),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_agents")),
         sa.UniqueConstraint("name", name=op.f("uq_agents_name")),
+    )
+    op.create_table(
+        "house",
+        sa.Column("agent_id", sa.String(length=64), nullable=False),
+        sa.Column("holder", sa.String(length=64), nullable=False),
+        sa.Column("until", sa.BigInteger(), nullable=False),
+        sa.ForeignKeyConstraint(["agent_id"], ["agents.id"], name=op.f("fk_house_agent_id_agents")),
+        sa.PrimaryKeyConstraint("agent_id", name=op.f("pk_house")),
     )
     op.create_table(
         "answers",
@@ -148,4 +157,5 @@ def downgrade() -> None:
     op.drop_index(op.f("ix_matches_seat_0"), table_name="matches")
     op.drop_table("matches")
     op.drop_table("answers")
+    op.drop_table("house")
     op.drop_table("agents")

@@ -1,0 +1,144 @@
+"""House bots: agents that the server runs itself. Who they are, whom they play, and which process runs them.
+
+Every server process may run the bots; a lease in the database says which one does. Whoever takes a lease gives the
+bot a new token, so that a bot left over from another process is sent away.
+"""
+
+import re
+import secrets
+from dataclasses import dataclass
+from typing import Any, Final
+
+from pydantic import TypeAdapter, ValidationError
+from sqlalchemy import Connection, Row, delete, func, insert, or_, select, update
+
+from referee.play import nanoseconds
+from referee.wire import MatchRequest
+from referee.wire.agents import AgentName
+from server.errors import SettingsError, invalid_field
+from server.security.callers import Caller
+from server.services.agents import renewed_token
+from server.services.context import Context, Writing
+from server.store.tables import agents, house, matches
+
+MOST_GAMES: Final = 10
+LONGEST_CLOCK: Final = 900.0
+"""Bounds on what a challenge may ask of a house bot, so that nobody keeps its places for a day."""
+LEASE: Final = 6.0
+"""Seconds a process is believed to run a bot without a sign of life."""
+
+_NAME: Final[TypeAdapter[str]] = TypeAdapter(AgentName)
+
+
+@dataclass(frozen=True, slots=True)
+class HouseBot:
+    """A bot: what it is called on the server, and what `pooliad agent run` is told to play."""
+
+    name: str
+    agent: str
+
+
+def parse(text: str) -> tuple[HouseBot, ...]:
+    """The bots of `random;greedy;mine=stdio:perl mine.pl`; raises `SettingsError`."""
+    bots = tuple(_bot(entry.strip()) for entry in re.split("[;\n]", text) if entry.strip())
+    names = [bot.name for bot in bots]
+    if len(set(names)) != len(names):
+        raise SettingsError(f"house_bots is {text!r}; allowed: every name once")
+    return bots
+
+
+def _bot(entry: str) -> HouseBot:
+    name, equals, agent = (part.strip() for part in entry.partition("="))
+    try:
+        _NAME.validate_python(name)
+    except ValidationError:
+        name = ""
+    if not name or (equals and not agent):
+        raise SettingsError(f"house_bots has {entry!r}; allowed: NAME or NAME=AGENT, apart by semicolons")
+    return HouseBot(name, agent or name)
+
+
+def enter(context: Context, bot: HouseBot) -> str:
+    """The bot's id, registered if need be; raises `SettingsError` when its name is somebody else's."""
+    with context.writing() as writing:
+        row = writing.connection.execute(select(agents).where(agents.c.name == bot.name)).one_or_none()
+        if row is None:
+            agent_id = f"agent_{secrets.token_hex(8)}"
+            entry = {"id": agent_id, "name": bot.name, "house": True, "created_at": writing.now}
+            writing.connection.execute(insert(agents).values(entry))
+            return agent_id
+        if not row.house:
+            allowed = f"another name for it, such as house-{bot.name}={bot.agent}"
+            raise SettingsError(
+                f"house_bots has {bot.name!r}, the name of an agent that registered; allowed: {allowed}"
+            )
+        return str(row.id)
+
+
+def take(context: Context, agent_id: str, holder: str) -> str | None:
+    """A new token for the bot if nobody runs it, and the lease with it; None when somebody does."""
+    with context.writing() as writing:
+        lease = writing.connection.execute(select(house).where(house.c.agent_id == agent_id)).one_or_none()
+        if lease is not None and lease.until > writing.now and lease.holder != holder:
+            return None
+        writing.connection.execute(delete(house).where(house.c.agent_id == agent_id))
+        entry = {"agent_id": agent_id, "holder": holder, "until": writing.now + nanoseconds(LEASE)}
+        writing.connection.execute(insert(house).values(entry))
+        return renewed_token(writing.connection, agent_id, writing.now)
+
+
+def renew(context: Context, agent_id: str, holder: str) -> bool:
+    """Go on running the bot; False when another process has taken it."""
+    with context.writing() as writing:
+        ours = (house.c.agent_id == agent_id) & (house.c.holder == holder)
+        until = writing.now + nanoseconds(LEASE)
+        return writing.connection.execute(update(house).where(ours).values(until=until)).rowcount == 1
+
+
+def release(context: Context, holder: str) -> None:
+    """Run no bot any more: another process may take them at once."""
+    with context.writing() as writing:
+        writing.connection.execute(delete(house).where(house.c.holder == holder))
+
+
+def require_terms(connection: Connection, request: MatchRequest, caller: Caller) -> None:
+    """A challenge to a house bot is a short one."""
+    if caller.is_organiser or not any(_is_house(connection, one) for one in request.agents if one != caller.id):
+        return
+    if request.games > MOST_GAMES:
+        raise invalid_field("games", request.games, f"at most {MOST_GAMES} against a house bot")
+    if request.clock.seconds > LONGEST_CLOCK:
+        raise invalid_field("clock.seconds", request.clock.seconds, f"at most {LONGEST_CLOCK:g} against a house bot")
+
+
+def has_place(writing: Writing, match: Row[Any]) -> bool:
+    """Whether the challenged agent is a house bot that takes the challenge now.
+
+    It plays so many matches at a time, and one with the same opponent.
+    """
+    bot = match.seat_1 if match.challenger == match.seat_0 else match.seat_0
+    if not _is_house(writing.connection, bot):
+        return False
+    running = select(func.count()).select_from(matches).where(matches.c.status == "running", _plays(bot))
+    taken = writing.connection.scalar(running) or 0
+    with_it = writing.connection.scalar(running.where(_plays(match.challenger))) or 0
+    return taken < writing.context.settings.house_places and with_it == 0
+
+
+def waiting(connection: Connection) -> list[Row[Any]]:
+    """The challenges to house bots that are not accepted yet, the oldest first."""
+    bots = select(agents.c.id).where(agents.c.house)
+    challenged = or_(
+        (matches.c.challenger == matches.c.seat_0) & matches.c.seat_1.in_(bots),
+        (matches.c.challenger == matches.c.seat_1) & matches.c.seat_0.in_(bots),
+    )
+    query = select(matches).where(matches.c.status == "challenged", challenged).order_by(matches.c.created_at)
+    return list(connection.execute(query.limit(100)).all())
+
+
+def _is_house(connection: Connection, agent_id: str) -> bool:
+    return bool(connection.scalar(select(agents.c.house).where(agents.c.id == agent_id)))
+
+
+def _plays(agent_id: str) -> Any:
+    return or_(matches.c.seat_0 == agent_id, matches.c.seat_1 == agent_id)
