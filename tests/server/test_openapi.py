@@ -115,7 +115,7 @@ class Somewhere:
         if path.endswith(("/shots", "/decisions", "/concede")) and method == "post":
             mover, view = self.lead_up(table, mover, view, example or {})
             caller = mover
-        if path == "/v1/turns":
+        if path in ("/v1/turns", "/v1/agents/me"):
             caller = mover
         if path.endswith("/record"):
             mover.post(f"/v1/games/{view['game']}/concede", version=view["version"])
