@@ -1,1 +1,27 @@
-"""Ratings, intervals, tests: what the results say about strength, and how surely."""
+"""Ratings, intervals, tests: what results say about strength, and how surely."""
+
+from tournament.statistics.bradley_terry import Rating, Ratings, rate
+from tournament.statistics.elo import MOST_ELO, elo_of, expected_score
+from tournament.statistics.ladder import Rung, ladder
+from tournament.statistics.score import Score, score_interval, score_of, score_of_cells, superiority
+from tournament.statistics.sprt import SprtState, Verdict, log_likelihood_ratio, sprt
+
+__all__ = [
+    "MOST_ELO",
+    "Rating",
+    "Ratings",
+    "Rung",
+    "Score",
+    "SprtState",
+    "Verdict",
+    "elo_of",
+    "expected_score",
+    "ladder",
+    "log_likelihood_ratio",
+    "rate",
+    "score_interval",
+    "score_of",
+    "score_of_cells",
+    "sprt",
+    "superiority",
+]
