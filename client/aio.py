@@ -17,6 +17,7 @@ from referee.wire import (
     AgentToken,
     AgentView,
     BatchAnswer,
+    ClockLedger,
     GameAnswer,
     MatchList,
     MatchRequest,
@@ -26,6 +27,7 @@ from referee.wire import (
     SimulateAnswer,
     StrokeAnswer,
 )
+from referee.wire.clocks import SupervisorsReason
 from referee.wire.matches import MatchStatus
 
 
@@ -108,9 +110,20 @@ class AsyncPooliad:
         """Wait up to `wait` seconds for the caller's next message; None when there is none."""
         return await self._send(calls.turns(wait))
 
-    async def play(self, game_id: str, version: int, action: Action) -> StrokeAnswer:
-        """Answer the view with this version: a stroke, a decision or a concession."""
-        return await self._send(calls.play(game_id, version, action))
+    async def play(self, game_id: str, version: int, action: Action, *, simulated: int = 0) -> StrokeAnswer:
+        """Answer the view with this version: a stroke, a decision or a concession.
+
+        `simulated`: shots simulated elsewhere since the last action, declared against the budget of the game.
+        """
+        return await self._send(calls.play(game_id, version, action, simulated))
+
+    async def forfeit(self, game_id: str, seat: int, reason: SupervisorsReason = "forfeit") -> GameAnswer:
+        """End a game against the player of a seat (organiser): `crash`, `stall`, `no_show` or `forfeit`."""
+        return await self._send(calls.forfeit(game_id, seat, reason))
+
+    async def clock(self, game_id: str) -> ClockLedger:
+        """What the turns of a game took, what of it was given back, and what was charged."""
+        return await self._send(calls.clock(game_id))
 
     async def game(self, game_id: str) -> GameAnswer:
         """A game and the caller's view of it."""
@@ -124,13 +137,17 @@ class AsyncPooliad:
         """The record of a finished game: JSON lines that `pooliad replay verify` accepts."""
         return await self._send(calls.record(game_id))
 
-    async def simulate(self, table: Table, state: TableState, shot: Shot, trace: bool = True) -> SimulateAnswer:
-        """One shot on the server's physics."""
-        return await self._send(calls.simulate(table, state, shot, trace))
+    async def simulate(
+        self, table: Table, state: TableState, shot: Shot, trace: bool = True, *, game: str | None = None
+    ) -> SimulateAnswer:
+        """One shot on the server's physics; with `game` it counts against the caller's budget in that game."""
+        return await self._send(calls.simulate(table, state, shot, trace, game))
 
-    async def simulate_batch(self, table: Table, state: TableState, shots: list[Shot]) -> BatchAnswer:
-        """Many shots from one position on the server's physics."""
-        return await self._send(calls.simulate_batch(table, state, shots))
+    async def simulate_batch(
+        self, table: Table, state: TableState, shots: list[Shot], *, game: str | None = None
+    ) -> BatchAnswer:
+        """Many shots from one position on the server's physics; with `game` they count likewise."""
+        return await self._send(calls.simulate_batch(table, state, shots, game))
 
     async def min_elevation(
         self, table: Table, state: TableState, phi: float, a: float = 0.0, b: float = 0.0

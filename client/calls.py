@@ -23,7 +23,9 @@ from referee.wire import (
     AgentView,
     BatchAnswer,
     BatchRequest,
+    ClockLedger,
     DecisionRequest,
+    ForfeitRequest,
     GameAnswer,
     GameOver,
     MatchList,
@@ -40,6 +42,7 @@ from referee.wire import (
     StrokeAnswer,
     Turn,
 )
+from referee.wire.clocks import SupervisorsReason
 from referee.wire.matches import MatchStatus
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -112,17 +115,29 @@ def turns(wait: float) -> Call[TurnMessage | None]:
     return Call("GET", "/v1/turns", _turn, params={"wait": f"{wait:g}"}, poll=wait)
 
 
-def play(game_id: str, version: int, action: Action) -> Call[StrokeAnswer]:
-    """Answer the view with this version: a stroke, a decision or a concession."""
+def play(game_id: str, version: int, action: Action, simulated: int = 0) -> Call[StrokeAnswer]:
+    """Answer the view with this version: a stroke, a decision or a concession; `simulated` shots are declared."""
     headers = _key() | {"If-Match": f'"{version}"'}
     if action.decision is Decision.CONCEDE:
         return Call("POST", f"/v1/games/{game_id}/concede", _reader(StrokeAnswer), headers=headers)
     if action.decision is not None:
-        decision = _json(DecisionRequest(decision=action.decision))
+        decision = _json(DecisionRequest(decision=action.decision, simulated=simulated))
         path = f"/v1/games/{game_id}/decisions"
         return Call("POST", path, _reader(StrokeAnswer), headers=headers, body=decision)
-    stroke = _json(ShotRequest.of(action))
+    stroke = _json(ShotRequest.of(action, simulated))
     return Call("POST", f"/v1/games/{game_id}/shots", _reader(StrokeAnswer), headers=headers, body=stroke)
+
+
+def forfeit(game_id: str, seat: int, reason: SupervisorsReason) -> Call[GameAnswer]:
+    """End a game against one of its players (organiser)."""
+    request = ForfeitRequest(seat=seat, reason=reason)
+    path = f"/v1/games/{game_id}/forfeit"
+    return Call("POST", path, _reader(GameAnswer), headers=_key(), body=_json(request))
+
+
+def clock(game_id: str) -> Call[ClockLedger]:
+    """What the turns of a game took, and what was charged."""
+    return Call("GET", f"/v1/games/{game_id}/clock", _reader(ClockLedger))
 
 
 def game(game_id: str) -> Call[GameAnswer]:
@@ -140,18 +155,18 @@ def record(game_id: str) -> Call[bytes]:
     return Call("GET", f"/v1/games/{game_id}/record", lambda response: response.content)
 
 
-def simulate(table: Table, state: TableState, shot: Shot, trace: bool) -> Call[SimulateAnswer]:
-    """One shot on the server's physics."""
-    request = SimulateRequest.model_validate(_scene(table, state) | {"shot": ShotParameters.of(shot), "trace": trace})
-    return Call("POST", "/v1/simulate", _reader(SimulateAnswer), body=_json(request), pure=True)
+def simulate(table: Table, state: TableState, shot: Shot, trace: bool, game: str | None) -> Call[SimulateAnswer]:
+    """One shot on the server's physics, counted against the budget of a game when one is named."""
+    asked = {"shot": ShotParameters.of(shot), "trace": trace, "game": game}
+    request = SimulateRequest.model_validate(_scene(table, state) | asked)
+    return Call("POST", "/v1/simulate", _reader(SimulateAnswer), body=_json(request), pure=game is None)
 
 
-def simulate_batch(table: Table, state: TableState, shots: list[Shot]) -> Call[BatchAnswer]:
-    """Many shots from one position on the server's physics."""
-    request = BatchRequest.model_validate(
-        _scene(table, state) | {"shots": tuple(ShotParameters.of(shot) for shot in shots)}
-    )
-    return Call("POST", "/v1/simulate/batch", _reader(BatchAnswer), body=_json(request), pure=True)
+def simulate_batch(table: Table, state: TableState, shots: list[Shot], game: str | None) -> Call[BatchAnswer]:
+    """Many shots from one position on the server's physics, counted likewise."""
+    asked = {"shots": tuple(ShotParameters.of(shot) for shot in shots), "game": game}
+    request = BatchRequest.model_validate(_scene(table, state) | asked)
+    return Call("POST", "/v1/simulate/batch", _reader(BatchAnswer), body=_json(request), pure=game is None)
 
 
 def min_elevation(table: Table, state: TableState, phi: float, a: float, b: float) -> Call[MinElevationAnswer]:

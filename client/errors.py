@@ -20,6 +20,7 @@
         │   ├── GameUnfinished
         │   ├── NotYourTurn
         │   ├── OutOfTime
+        │   ├── BudgetSpent
         │   ├── WrongStatus
         │   └── NameTaken
         ├── StaleVersion        412, carries the current view
@@ -185,6 +186,12 @@ class OutOfTime(Conflict):
     """The caller's clock has run out."""
 
     code = ProblemCode.OUT_OF_TIME
+
+
+class BudgetSpent(Conflict):
+    """The caller's budget of simulated shots has fewer left."""
+
+    code = ProblemCode.BUDGET_SPENT
 
 
 class WrongStatus(Conflict):

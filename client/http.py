@@ -17,6 +17,7 @@ from referee.wire import (
     AgentToken,
     AgentView,
     BatchAnswer,
+    ClockLedger,
     GameAnswer,
     MatchList,
     MatchRequest,
@@ -26,6 +27,7 @@ from referee.wire import (
     SimulateAnswer,
     StrokeAnswer,
 )
+from referee.wire.clocks import SupervisorsReason
 from referee.wire.matches import MatchStatus
 
 
@@ -111,9 +113,20 @@ class Pooliad:
         """Wait up to `wait` seconds for the caller's next message; None when there is none."""
         return self._send(calls.turns(wait))
 
-    def play(self, game_id: str, version: int, action: Action) -> StrokeAnswer:
-        """Answer the view with this version: a stroke, a decision or a concession."""
-        return self._send(calls.play(game_id, version, action))
+    def play(self, game_id: str, version: int, action: Action, *, simulated: int = 0) -> StrokeAnswer:
+        """Answer the view with this version: a stroke, a decision or a concession.
+
+        `simulated`: shots simulated elsewhere since the last action, declared against the budget of the game.
+        """
+        return self._send(calls.play(game_id, version, action, simulated))
+
+    def forfeit(self, game_id: str, seat: int, reason: SupervisorsReason = "forfeit") -> GameAnswer:
+        """End a game against the player of a seat (organiser): `crash`, `stall`, `no_show` or `forfeit`."""
+        return self._send(calls.forfeit(game_id, seat, reason))
+
+    def clock(self, game_id: str) -> ClockLedger:
+        """What the turns of a game took, what of it was given back, and what was charged."""
+        return self._send(calls.clock(game_id))
 
     def game(self, game_id: str) -> GameAnswer:
         """A game and the caller's view of it."""
@@ -127,13 +140,17 @@ class Pooliad:
         """The record of a finished game: JSON lines that `pooliad replay verify` accepts."""
         return self._send(calls.record(game_id))
 
-    def simulate(self, table: Table, state: TableState, shot: Shot, trace: bool = True) -> SimulateAnswer:
-        """One shot on the server's physics."""
-        return self._send(calls.simulate(table, state, shot, trace))
+    def simulate(
+        self, table: Table, state: TableState, shot: Shot, trace: bool = True, *, game: str | None = None
+    ) -> SimulateAnswer:
+        """One shot on the server's physics; with `game` it counts against the caller's budget in that game."""
+        return self._send(calls.simulate(table, state, shot, trace, game))
 
-    def simulate_batch(self, table: Table, state: TableState, shots: list[Shot]) -> BatchAnswer:
-        """Many shots from one position on the server's physics."""
-        return self._send(calls.simulate_batch(table, state, shots))
+    def simulate_batch(
+        self, table: Table, state: TableState, shots: list[Shot], *, game: str | None = None
+    ) -> BatchAnswer:
+        """Many shots from one position on the server's physics; with `game` they count likewise."""
+        return self._send(calls.simulate_batch(table, state, shots, game))
 
     def min_elevation(
         self, table: Table, state: TableState, phi: float, a: float = 0.0, b: float = 0.0

@@ -1,12 +1,36 @@
 """An agent's instances, one a game; when one misbehaves, its log says how, and it is asked again."""
 
 import logging
+from dataclasses import dataclass, field
 
 from client.agent import Agent, AgentFactory
-from referee import Action
+from client.simulator import Simulator
+from referee import Action, SimulationBudget
 from referee.wire import GameOver, View
 
 log = logging.getLogger("pooliad.agent")
+
+
+@dataclass(slots=True)
+class Honour:
+    """What one instance simulates by itself in a game on a server: counted here, declared with its next action.
+
+    Attributes:
+        declared: how many of the simulated shots the server knows of.
+    """
+
+    budget: SimulationBudget = field(default_factory=SimulationBudget)
+    declared: int = 0
+
+    @property
+    def undeclared(self) -> int:
+        """Shots simulated since the last action that was accepted."""
+        return self.budget.used - self.declared
+
+    def told(self, view: View) -> None:
+        """The server says what is left: it has counted what was declared, and what it simulated itself."""
+        left = None if view.seat is None else view.clocks[view.seat].simulations_left
+        self.budget.allowed = None if left is None else self.declared + left
 
 
 class Players:
@@ -18,6 +42,7 @@ class Players:
     def __init__(self, factory: AgentFactory) -> None:
         self._factory = factory
         self._by_game: dict[str, Agent] = {}
+        self._by_honour: dict[str, Honour] = {}
 
     def choose(self, view: View) -> Action | None:
         """The agent's action; None when it raised or returned something else, which is logged."""
@@ -36,6 +61,14 @@ class Players:
         )
         return None
 
+    def simulated(self, game: str) -> int:
+        """Shots that the game's instance simulated and has not declared yet."""
+        return self._by_honour[game].undeclared
+
+    def declared(self, game: str, shots: int) -> None:
+        """The server has counted so many of them."""
+        self._by_honour[game].declared += shots
+
     def refused(self, view: View, reason: object) -> None:
         """Log why an action was not accepted."""
         log.error("game %s, stroke %d: refused: %s", view.game, view.stroke, reason)
@@ -43,6 +76,7 @@ class Players:
     def game_over(self, over: GameOver) -> None:
         """Tell the instance of this game that it has ended, and forget it; without a turn there is none."""
         agent = self._by_game.pop(over.game, None)
+        self._by_honour.pop(over.game, None)
         if agent is None:
             return
         try:
@@ -52,8 +86,11 @@ class Players:
 
     def _of(self, view: View) -> Agent:
         """The instance for this game."""
+        honour = self._by_honour.setdefault(view.game, Honour())
+        honour.told(view)
         if view.game not in self._by_game:
             agent = self._factory()
+            agent.simulator = Simulator(honour.budget)
             agent.game_started(view)
             self._by_game[view.game] = agent
         return self._by_game[view.game]

@@ -111,7 +111,10 @@ class _Run:
         if action is None:
             return None
         try:
-            return self._server.play(view.game, view.version, action).view
+            simulated = self._players.simulated(view.game)
+            answer = self._server.play(view.game, view.version, action, simulated=simulated)
+            self._players.declared(view.game, simulated)
+            return answer.view
         except (Unprocessable, ValidationError) as error:
             self._players.refused(view, error)
         except (StaleVersion, Conflict) as error:

@@ -14,6 +14,7 @@ from server.routes import ROUTERS
 from server.security.body_gate import BodyGate
 from server.services import warmup
 from server.services.context import Context
+from server.services.heartbeat import Heartbeat
 from server.services.house_bots import House
 from server.services.spectators import Spectators
 from server.services.timer import Timer
@@ -61,7 +62,12 @@ def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManag
         upgrade(context.database)
         context.wakeups.start()
         warmup.start(context)
-        async with Timer(context).running(), app.state.spectators.running(), app.state.house.running():
+        async with (
+            Heartbeat(context).beating(),
+            Timer(context).running(),
+            app.state.spectators.running(),
+            app.state.house.running(),
+        ):
             yield
         context.wakeups.drain()
         context.database.dispose()

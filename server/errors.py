@@ -15,6 +15,7 @@
     ├── GameUnfinished          409
     ├── NotYourTurn             409
     ├── OutOfTime               409
+    ├── BudgetSpent             409
     ├── WrongStatus             409
     ├── NameTaken               409
     ├── StaleVersion            412  carries the current view
@@ -135,6 +136,12 @@ class OutOfTime(ServerError):
     """The mover's clock had run out when the request was complete."""
 
     status, code = 409, ProblemCode.OUT_OF_TIME
+
+
+class BudgetSpent(ServerError):
+    """More shots were simulated, or are to be, than the player's budget has left."""
+
+    status, code = 409, ProblemCode.BUDGET_SPENT
 
 
 class WrongStatus(ServerError):

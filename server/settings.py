@@ -26,6 +26,10 @@ class Settings:
     database: str = "sqlite:///pooliad.db"
     organiser_digest: str | None = None
     fetch_grace: float = 5.0
+    no_show_seconds: float = 60.0
+    lag_turn: float = 0.05
+    lag_game: float = 5.0
+    heartbeat_period: float = 1.0
     timer_period: float = 0.2
     poll_recheck: float = 2.0
     longest_wait: float = 60.0

@@ -4,7 +4,7 @@
 """
 
 from referee.play.budget import Budgets, BudgetSpent, SimulationBudget
-from referee.play.clock import Clocks, nanoseconds
+from referee.play.clock import Charge, Clocks, LagAllowance, nanoseconds
 from referee.play.noise import NoiseModel
 from referee.play.seeds import GameSeeds, MatchSeed, commitment, seed_from_hex
 from referee.play.stroke import Refused, Stroke, begin_game, play_stroke, start_game
@@ -12,8 +12,10 @@ from referee.play.stroke import Refused, Stroke, begin_game, play_stroke, start_
 __all__ = [
     "BudgetSpent",
     "Budgets",
+    "Charge",
     "Clocks",
     "GameSeeds",
+    "LagAllowance",
     "MatchSeed",
     "NoiseModel",
     "Refused",

@@ -64,6 +64,50 @@ class Clocks:
         return self.remaining_ns(seat) <= 0
 
 
+@dataclass(frozen=True, slots=True)
+class LagAllowance:
+    """What the way to and from a server costs a player, given back: the same for everybody, whoever says what.
+
+    Attributes:
+        turn_ns: given back at most for one turn.
+        game_ns: given back at most to one player in a game.
+    """
+
+    turn_ns: int = 0
+    game_ns: int = 0
+
+    def __post_init__(self) -> None:
+        for name, value in (("turn_ns", self.turn_ns), ("game_ns", self.game_ns)):
+            if value < 0:
+                raise ValueError(f"{name} = {value!r}: must be >= 0")
+
+    def left_ns(self, granted_ns: int) -> int:
+        """What a turn may be given at most when the game has given ``granted_ns`` already."""
+        return max(0, min(self.turn_ns, self.game_ns - granted_ns))
+
+    def charge(self, measured_ns: int, granted_ns: int) -> "Charge":
+        """What a turn of ``measured_ns`` costs when the game has given ``granted_ns`` already."""
+        return Charge(measured_ns, min(measured_ns, self.left_ns(granted_ns)))
+
+
+@dataclass(frozen=True, slots=True)
+class Charge:
+    """One turn on a clock.
+
+    Attributes:
+        measured_ns: how long it took, as the server saw it.
+        lag_ns: what of it was given back.
+    """
+
+    measured_ns: int
+    lag_ns: int
+
+    @property
+    def charged_ns(self) -> int:
+        """What the player's clock lost."""
+        return self.measured_ns - self.lag_ns
+
+
 def nanoseconds(seconds: float) -> int:
     """Seconds to whole nanoseconds, rounded to nearest."""
     return round(seconds * SECOND_NS)

@@ -2,6 +2,7 @@
 
 from referee.wire.agents import AgentList, AgentRequest, AgentToken, AgentView
 from referee.wire.answers import ShotsPage, StrokeAnswer
+from referee.wire.clocks import ChargeView, ClockLedger, ForfeitRequest, SeatLedger
 from referee.wire.matches import GameAnswer, GameSummary, MatchList, MatchRequest, MatchStatus, MatchView
 from referee.wire.outcomes import (
     BallStateView,
@@ -50,12 +51,15 @@ __all__ = [
     "BatchRow",
     "BudgetView",
     "CallRequest",
+    "ChargeView",
+    "ClockLedger",
     "ClockTerms",
     "ClockView",
     "DecisionRequest",
     "EventView",
     "EvidenceView",
     "Fault",
+    "ForfeitRequest",
     "GameAnswer",
     "GameOver",
     "GameSummary",
@@ -76,6 +80,7 @@ __all__ = [
     "Problem",
     "ProblemCode",
     "RulingView",
+    "SeatLedger",
     "ShotParameters",
     "ShotRequest",
     "ShotsPage",

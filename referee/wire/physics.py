@@ -7,13 +7,19 @@ from pydantic.config import JsonDict
 
 from referee.wire.outcomes import EventView
 from referee.wire.shots import ShotParameters
-from referee.wire.values import Balls, Flag, Integer, Message, Number, Request, TableValues
+from referee.wire.values import Balls, Flag, Identifier, Integer, Message, Number, Request, TableValues
 
 BATCH_LIMIT = 10_000
 """Shots in one batch request: about a tenth of a second of one core."""
 
 _SHOT: JsonDict = {"v": 2.0, "phi": 260.0, "theta": 8.0, "a": 0.0, "b": 3.0}
 _BALLS: JsonDict = {"0": [0.5, 1.7], "3": [0.4, 0.6]}
+
+
+GameOfCaller = Annotated[
+    Identifier | None,
+    Field(description="A running game of the caller's, whose budget of simulated shots this counts against."),
+]
 
 
 class SimulateRequest(Request):
@@ -31,6 +37,7 @@ class SimulateRequest(Request):
     balls: Balls
     shot: ShotParameters
     trace: Flag = True
+    game: GameOfCaller = None
 
 
 class SimulateAnswer(Message):
@@ -74,6 +81,7 @@ class BatchRequest(Request):
     balls: Balls | None = None
     tables: Annotated[tuple[Balls, ...], Field(max_length=BATCH_LIMIT)] | None = None
     shots: Annotated[tuple[ShotParameters, ...], Field(min_length=1, max_length=BATCH_LIMIT)]
+    game: GameOfCaller = None
 
 
 class BatchRow(Message):

@@ -37,6 +37,8 @@ class ProblemCode(StrEnum):
     """409: it is the other player's turn."""
     OUT_OF_TIME = "out_of_time"
     """409: the caller's clock has run out."""
+    BUDGET_SPENT = "budget_spent"
+    """409: the caller's budget of simulated shots has fewer left."""
     WRONG_STATUS = "wrong_status"
     """409: the match is not in a state that allows this."""
     NAME_TAKEN = "name_taken"

@@ -8,7 +8,8 @@ from pydantic import ConfigDict, Field, ValidatorFunctionWrapHandler, WrapValida
 from physics.constants import THETA_MAX, V_MAX
 from physics.shot import Shot
 from referee.game import Action, Call, Decision
-from referee.wire.values import Message, Number, ObjectBall, PocketNumber, Point, Request
+from referee.wire.terms import SIMULATIONS_MAX
+from referee.wire.values import Integer, Message, Number, ObjectBall, PocketNumber, Point, Request
 
 
 class ShotParameters(Request):
@@ -48,6 +49,11 @@ def _one_kind_of_call(value: Any, handler: ValidatorFunctionWrapHandler) -> Any:
     return CallRequest.model_validate(value) if isinstance(value, Mapping) else handler(value)
 
 
+Simulated = Annotated[
+    Integer,
+    Field(ge=0, le=SIMULATIONS_MAX, description="Shots simulated elsewhere since the last action, by honour."),
+]
+
 Called = Annotated[CallRequest | Literal["safety"] | None, WrapValidator(_one_kind_of_call)]
 
 
@@ -83,17 +89,20 @@ class ShotRequest(Request):
     shot: ShotParameters
     call: Called = None
     cue_ball: Annotated[Point | None, Field(description="Where the cue ball is placed, m.")] = None
+    simulated: Simulated = 0
 
     def to_action(self) -> Action:
         """The referee's own value."""
         return Action(shot=self.shot.to_shot(), call=_to_call(self.call), cue_ball=self.cue_ball)
 
     @classmethod
-    def of(cls, action: Action) -> "ShotRequest":
+    def of(cls, action: Action, simulated: int = 0) -> "ShotRequest":
         """The request that asks for this action; it must hold a shot."""
         if action.shot is None:
             raise ValueError(f"action.shot = None: a decision is no shot: {action!r}")
-        return cls(shot=ShotParameters.of(action.shot), call=_from_call(action.call), cue_ball=action.cue_ball)
+        call = _from_call(action.call)
+        shot = ShotParameters.of(action.shot)
+        return cls(shot=shot, call=call, cue_ball=action.cue_ball, simulated=simulated)
 
 
 class DecisionRequest(Request):
@@ -102,6 +111,7 @@ class DecisionRequest(Request):
     model_config = ConfigDict(json_schema_extra={"examples": [{"decision": "accept_table"}]})
 
     decision: Decision
+    simulated: Simulated = 0
 
     def to_action(self) -> Action:
         """The referee's own value."""

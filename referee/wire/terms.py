@@ -7,6 +7,9 @@ from pydantic import Field
 from referee.play.noise import LEVEL_MAX
 from referee.wire.values import Flag, Integer, Message, Number, Request
 
+SIMULATIONS_MAX = 1_000_000_000
+"""Simulated shots a player and game: days of one core, and far below what a column holds."""
+
 
 class NoiseTerms(Request):
     """Execution noise of a match.
@@ -21,13 +24,15 @@ class NoiseTerms(Request):
 
 
 class ClockTerms(Request):
-    """Thinking time.
+    """Thinking time, and what may be simulated in it.
 
     Attributes:
         seconds: for each player and game.
+        simulations: shots that each player may simulate in a game; null for any number.
     """
 
     seconds: Annotated[Number, Field(gt=0, le=86400)] = 300.0
+    simulations: Annotated[Integer, Field(ge=0, le=SIMULATIONS_MAX)] | None = None
 
 
 class NoiseView(Message):

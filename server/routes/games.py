@@ -2,8 +2,9 @@
 
 from fastapi import APIRouter, Response
 
-from referee.wire import DecisionRequest, GameAnswer, ShotRequest, ShotsPage, StrokeAnswer
+from referee.wire import ClockLedger, DecisionRequest, ForfeitRequest, GameAnswer, ShotRequest, ShotsPage, StrokeAnswer
 from server.errors import (
+    BudgetSpent,
     GameFinished,
     GameUnfinished,
     Invalid,
@@ -17,11 +18,11 @@ from server.errors import (
 )
 from server.routes.dependencies import ANYBODY, Cursor, InHand, Limit, Reader, Sent, Server, respond
 from server.routes.describe import OWNED, describe
-from server.services import history, strokes
+from server.services import history, ledger, strokes, verdicts
 
 router = APIRouter(prefix="/v1/games/{game_id}", tags=["games"])
 
-ACTION_PROBLEMS = (*OWNED, VersionRequired, GameFinished, StaleVersion, NotYourTurn, OutOfTime)
+ACTION_PROBLEMS = (*OWNED, VersionRequired, GameFinished, StaleVersion, NotYourTurn, OutOfTime, BudgetSpent)
 RECORD_TYPE = "application/x-ndjson"
 
 
@@ -62,6 +63,27 @@ def decide(game_id: str, context: Server, command: Sent) -> Response:
 def concede(game_id: str, context: Server, command: Sent) -> Response:
     """In turn. The request has no body."""
     return respond(strokes.concede(context, game_id, command))
+
+
+@router.post(
+    "/forfeit",
+    **describe(*OWNED, GameFinished, body=ForfeitRequest, success={200: GameAnswer}, key=True),
+    summary="End a game against a player",
+)
+def forfeit(game_id: str, context: Server, command: Sent) -> Response:
+    """For the organiser, who saw a player crash, stall, stay away or break the terms."""
+    return respond(verdicts.forfeit(context, game_id, command))
+
+
+@router.get(
+    "/clock",
+    **describe(NotFound, Unauthorized, token=False),
+    dependencies=[ANYBODY],
+    summary="The ledger of a game's clocks",
+)
+def clock(game_id: str, context: Server) -> ClockLedger:
+    """What every turn took, what of it was given back, and what was charged."""
+    return ledger.read(context, game_id)
 
 
 @router.get(

@@ -10,24 +10,32 @@ from referee.wire import (
     SimulateAnswer,
     SimulateRequest,
 )
-from server.routes.dependencies import Authenticated, Body, ContentType
-from server.routes.describe import describe
-from server.services import physics
+from server.errors import BudgetSpent, GameFinished
+from server.routes.dependencies import Authenticated, Body, ContentType, Server
+from server.routes.describe import OWNED, describe
+from server.services import physics, simulations
 from server.services.commands import parse_body
+
+GAME_PROBLEMS = (*OWNED, GameFinished, BudgetSpent)
+"""What naming a game may be answered with."""
 
 router = APIRouter(prefix="/v1", tags=["physics"])
 
 
-@router.post("/simulate", **describe(body=SimulateRequest), summary="Simulate one shot")
-def simulate(_caller: Authenticated, body: Body, content_type: ContentType = None) -> SimulateAnswer:
+@router.post("/simulate", **describe(*GAME_PROBLEMS, body=SimulateRequest), summary="Simulate one shot")
+def simulate(context: Server, caller: Authenticated, body: Body, content_type: ContentType = None) -> SimulateAnswer:
     """A shot that cannot be played is an answer too; its status says why."""
-    return physics.simulate(parse_body(body, content_type, SimulateRequest))
+    request = parse_body(body, content_type, SimulateRequest)
+    simulations.count(context, caller, request.game, 1)
+    return physics.simulate(request)
 
 
-@router.post("/simulate/batch", **describe(body=BatchRequest), summary="Simulate many shots")
-def simulate_batch(_caller: Authenticated, body: Body, content_type: ContentType = None) -> BatchAnswer:
+@router.post("/simulate/batch", **describe(*GAME_PROBLEMS, body=BatchRequest), summary="Simulate many shots")
+def simulate_batch(context: Server, caller: Authenticated, body: Body, content_type: ContentType = None) -> BatchAnswer:
     """From one position, or each from its own."""
-    return physics.simulate_batch(parse_body(body, content_type, BatchRequest))
+    request = parse_body(body, content_type, BatchRequest)
+    simulations.count(context, caller, request.game, len(request.shots))
+    return physics.simulate_batch(request)
 
 
 @router.post("/min-elevation", **describe(body=MinElevationRequest), summary="The least elevation of a free cue")

@@ -4,22 +4,21 @@ Everything here runs in the transaction of whatever caused it.
 """
 
 import secrets
-from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from sqlalchemy import Connection, Row, func, insert, select, update
 
 from physics import Table
 from referee.game import EndReason, Game
-from referee.play import GameSeeds, MatchSeed, NoiseModel, begin_game
+from referee.play import Charge, GameSeeds, MatchSeed, NoiseModel, begin_game
 from referee.record import Header, canonical, end_entry
 from referee.rules import EightBall
 from server.errors import StaleVersion
-from server.services import notices
+from server.services import notices, turn_clock
 from server.services.context import Writing
 from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, position_of, score_of
-from server.store.tables import games, matches, moves
+from server.store.tables import charges, games, matches, moves
 
 FIRST_VERSION = 1
 
@@ -40,34 +39,49 @@ def begin(writing: Writing, match: Row[Any], number: int) -> None:
         "state": game.to_dict(),
         "version": FIRST_VERSION,
         "status": RUNNING,
-        "used_0": 0,
-        "used_1": 0,
+        **dict.fromkeys(("used_0", "used_1", "lag_0", "lag_1", "simulated_0", "simulated_1"), 0),
+        **dict.fromkeys(("present_0", "present_1"), False),
         "started_at": writing.now,
         "header": canonical(header.to_dict()),
     }
-    writing.connection.execute(insert(games).values(row | _turn(writing, match, game, match.allowance)))
+    turn = turn_clock.mover(match, game) | turn_clock.available(writing, turn_clock.first_turn(match))
+    writing.connection.execute(insert(games).values(row | turn))
 
 
-def advance(writing: Writing, live: LiveGame, game: Game, elapsed: int) -> LiveGame:
-    """Store what a move made of a game, `elapsed` ns off the mover's clock, and what follows from it.
+@dataclass(frozen=True, slots=True)
+class TurnEnd:
+    """How a turn ended.
+
+    Attributes:
+        charge: what it costs its player.
+        move: the number of the move that ended it; None when it ended from outside.
+        simulated: the shots that its player declares to have simulated for it.
+    """
+
+    charge: Charge
+    move: int | None = None
+    simulated: int = 0
+
+
+def next_move(live: LiveGame) -> int:
+    """The number that the game's next move gets: every move, and nothing else before the end, makes a new version."""
+    return int(live.row.version) - FIRST_VERSION
+
+
+def advance(writing: Writing, live: LiveGame, game: Game, end: TurnEnd) -> LiveGame:
+    """Store what a move made of a game, and what follows from it.
 
     Raises `StaleVersion` when somebody else was first.
     """
     if game.is_over:
-        return _finish(writing, live, game, elapsed, (0, 0))
-    mover = live.game.turn
-    remaining = live.clocks.charged(mover, elapsed).remaining_ns(game.turn)
-    # a mover who stays at the table has the next view in the answer: the clock goes on at once
-    turn = _turn(writing, live.match, game, remaining, delivered=game.turn == mover)
-    return _store(writing, live, game, elapsed, turn)
+        return _finish(writing, live, game, end)
+    return _store(writing, live, game, end, _next_turn(writing, live, game, end.charge))
 
 
 def end_from_outside(writing: Writing, live: LiveGame, reason: EndReason, loser: int | None) -> LiveGame:
     """End a running game for a reason that is not on the table (R48); the running turn is charged."""
     ruling = live.rules.end(live.game, reason, loser)
-    elapsed, turn = live.elapsed(writing.now), live.game.turn
-    last = live.row.carried + elapsed
-    return _finish(writing, live, ruling.game, elapsed, (last, 0) if turn == 0 else (0, last))
+    return _finish(writing, live, ruling.game, TurnEnd(live.charge_until(writing.now)))
 
 
 def abort_running(writing: Writing, match: Row[Any]) -> None:
@@ -93,12 +107,14 @@ def _header(connection: Connection, match: Row[Any], number: int, seeds: GameSee
     )
 
 
-def _finish(writing: Writing, live: LiveGame, game: Game, elapsed: int, after_last_move: Sequence[int]) -> LiveGame:
+def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd) -> LiveGame:
     """The game is over: its result, the end of its record, the news to both players, and what comes next."""
     outcome = game.outcome
     assert outcome is not None
     aborted = outcome.reason is EndReason.ABORTED
-    entries = _count_moves(writing.connection, live.id)
+    entries, after_last_move = _count_moves(writing.connection, live.id), [0, 0]
+    if end.move is None:
+        after_last_move[live.game.turn] = end.charge.charged_ns
     values = {
         "status": ABORTED if aborted else FINISHED,
         "winner": outcome.winner,
@@ -107,7 +123,7 @@ def _finish(writing: Writing, live: LiveGame, game: Game, elapsed: int, after_la
         "ended_at": writing.now,
         "ending": canonical(end_entry(entries, outcome, live.seeds, after_last_move)),
     }
-    live = _store(writing, live, game, elapsed, values)
+    live = _store(writing, live, game, end, values)
     live = replace(live, score=score_of(writing.connection, live.match.id))
     notices.game_over(writing.connection, live, writing.now)
     if not aborted:
@@ -125,31 +141,36 @@ def _go_on(writing: Writing, live: LiveGame) -> None:
     notices.match_over(writing.connection, live.match, FINISHED)
 
 
-def _turn(writing: Writing, match: Row[Any], game: Game, remaining: int, delivered: bool = False) -> dict[str, Any]:
-    """The columns of a new turn: its clock starts when it is delivered, or by itself after a while."""
-    clock_from = writing.now if delivered else writing.now + writing.context.fetch_grace
-    return {
-        "mover": (match.seat_0, match.seat_1)[game.turn],
-        "delivered": delivered,
-        "available_at": writing.now,
-        "clock_from": clock_from,
-        "deadline": clock_from + remaining,
-        "carried": 0,
-    }
+def _next_turn(writing: Writing, live: LiveGame, game: Game, charge: Charge) -> dict[str, Any]:
+    """The columns of the turn that follows a move."""
+    seat, stays = game.turn, game.turn == live.game.turn
+    granted = live.granted[seat] + (charge.lag_ns if stays else 0)
+    clock = turn_clock.TurnClock(
+        remaining=live.clocks.charged(live.game.turn, charge.charged_ns).remaining_ns(seat),
+        lag=live.lag.left_ns(granted),
+        present=stays or live.is_present[seat],
+    )
+    # a mover who stays at the table has the next view in the answer: the clock goes on at once
+    turn = turn_clock.delivered(clock, writing.now, writing.now) if stays else turn_clock.available(writing, clock)
+    return turn_clock.mover(live.match, game) | turn
 
 
-def _store(writing: Writing, live: LiveGame, game: Game, elapsed: int, values: dict[str, Any]) -> LiveGame:
-    """Compare-and-set on the version."""
-    used = live.clocks.charged(live.game.turn, elapsed).used_ns
+def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, values: dict[str, Any]) -> LiveGame:
+    """Compare-and-set on the version, and a row in the ledger of the clocks."""
+    seat, charge = live.game.turn, end.charge
     values = {
         "state": game.to_dict(),
         "version": live.row.version + 1,
-        "used_0": used[0],
-        "used_1": used[1],
+        f"used_{seat}": live.clocks.used_ns[seat] + charge.charged_ns,
+        f"lag_{seat}": live.granted[seat] + charge.lag_ns,
+        f"simulated_{seat}": games.c[f"simulated_{seat}"] + end.simulated,
+        f"present_{seat}": live.is_present[seat] or end.move is not None,
     } | values
     seen = (games.c.id == live.id) & (games.c.version == live.row.version)
     if writing.connection.execute(update(games).where(seen).values(values)).rowcount != 1:
         raise StaleVersion("the game moved on in the meantime")
+    row = {"game_id": live.id, "seat": seat, "move": end.move, "measured": charge.measured_ns, "lag": charge.lag_ns}
+    writing.connection.execute(insert(charges).values(row | {"created_at": writing.now}))
     return find(writing.connection, live.id)
 
 

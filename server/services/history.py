@@ -2,14 +2,14 @@
 
 import json
 
-from sqlalchemy import select
+from sqlalchemy import Connection, select
 
 from referee.wire import GameAnswer, ShotsPage, StrokeDetail
 from server.errors import GameUnfinished
 from server.security.callers import Caller
 from server.services.commands import Answer
 from server.services.context import Context
-from server.services.live import find
+from server.services.live import LiveGame, find
 from server.services.match_views import summary
 from server.store.tables import moves
 
@@ -19,8 +19,13 @@ def game(context: Context, game_id: str, reader: Caller | None) -> Answer:
     with context.database.reading() as connection:
         live = find(connection, game_id)
         seat = live.agents.index(reader.id) if reader is not None and reader.id in live.agents else None
-        view = live.view(connection, seat, context.time.now())
-    return Answer.of(200, GameAnswer(**summary(live.row), view=view), etag=f'"{live.row.version}"')
+        return answer(connection, live, seat, context.time.now())
+
+
+def answer(connection: Connection, live: LiveGame, seat: int | None, now: int) -> Answer:
+    """The game as a seat sees it, None for a spectator; `ETag` is the version."""
+    message = GameAnswer(**summary(live.row), view=live.view(connection, seat, now))
+    return Answer.of(200, message, etag=f'"{live.row.version}"')
 
 
 def shots(context: Context, game_id: str, cursor: int, limit: int) -> ShotsPage:

@@ -8,10 +8,9 @@ from sqlalchemy import Connection, Row, select
 
 from physics import Table
 from referee.game import Game
-from referee.play import Clocks, GameSeeds, MatchSeed, NoiseModel
-from referee.play.clock import SECOND_NS
+from referee.play import Charge, Clocks, GameSeeds, LagAllowance, MatchSeed, NoiseModel
 from referee.rules import EightBall
-from referee.wire import ClockView, GameTerms, NoiseView, Position, StrokeView, View
+from referee.wire import BudgetView, ClockView, GameTerms, NoiseView, Position, StrokeView, View
 from server.errors import Forbidden, NotFound
 from server.security.callers import Caller
 from server.store.tables import agents, games, matches, moves
@@ -74,37 +73,68 @@ class LiveGame:
         """Both clocks as charged so far, the running turn not counted."""
         return Clocks(self.match.allowance, (self.row.used_0, self.row.used_1))
 
+    @property
+    def lag(self) -> LagAllowance:
+        """What this match gives back for the way to the server and back."""
+        return LagAllowance(self.match.lag_turn, self.match.lag_game)
+
+    @property
+    def granted(self) -> tuple[int, int]:
+        """What was given back so far in this game, ns by seat."""
+        return self.row.lag_0, self.row.lag_1
+
+    @property
+    def is_present(self) -> tuple[bool, bool]:
+        """Whether each player ever fetched a turn of this game or played one."""
+        return self.row.present_0, self.row.present_1
+
     def seat_of(self, caller: Caller) -> int:
         """The caller's seat; raises `Forbidden` for anybody but the two players."""
         if caller.id not in self.agents:
             raise Forbidden("this is for the game's two players")
         return self.agents.index(caller.id)
 
-    def elapsed(self, now: int) -> int:
-        """Nanoseconds that the running turn has taken and that are not charged yet."""
+    def running_for(self, now: int) -> int:
+        """Nanoseconds that the running turn's clock has run since it started, or since the server did."""
         return max(0, now - int(self.row.clock_from)) if self.is_running else 0
 
-    def time_of_action(self, arrived: int) -> int:
-        """Nanoseconds that an action complete at `arrived` is charged.
+    def charge_until(self, now: int) -> Charge:
+        """What the running turn costs if it ends now."""
+        carried = self.row.carried if self.is_running else 0
+        return self._charge(carried + self.running_for(now))
 
-        On a turn that was never fetched they count from the moment it was there to be fetched: whoever acts knows
-        the view from elsewhere, and the wait for the fetch is not free time to think.
+    def charge_of_action(self, arrived: int) -> Charge:
+        """What the running turn costs if the action that ends it was complete at `arrived`.
+
+        A turn that was never fetched counts from the moment it was there to be fetched: whoever acts knows the view
+        from elsewhere, and the wait for the fetch is not free time to think.
         """
-        return max(0, arrived - self._thinking_from)
+        start = int(self.row.clock_from if self.row.delivered else self.row.available_at)
+        return self._charge(self.row.carried + max(0, arrived - start))
 
     def is_out_of_time(self, arrived: int) -> bool:
         """Whether an action complete at `arrived` is too late; exactly zero left is."""
-        return self.time_of_action(arrived) >= self.clocks.remaining_ns(self.game.turn)
+        turn = self.game.turn
+        return self.clocks.charged(turn, self.charge_of_action(arrived).charged_ns).is_out_of_time(turn)
 
-    @property
-    def _thinking_from(self) -> int:
-        return int(self.row.clock_from if self.row.delivered else self.row.available_at)
+    def _charge(self, measured: int) -> Charge:
+        return self.lag.charge(measured, self.granted[self.game.turn])
 
     def clock_views(self, now: int) -> tuple[ClockView, ClockView]:
         """Both clocks as they stand now."""
-        turn, elapsed = self.game.turn, self.elapsed(now)
-        clocks = self.clocks.charged(turn, elapsed)
-        return _clock(clocks, 0, turn == 0 and elapsed > 0), _clock(clocks, 1, turn == 1 and elapsed > 0)
+        turn, running = self.game.turn, self.running_for(now) > 0
+        clocks = self.clocks.charged(turn, self.charge_until(now).charged_ns)
+        return self._clock(clocks, 0, running and turn == 0), self._clock(clocks, 1, running and turn == 1)
+
+    def _clock(self, clocks: Clocks, seat: int, running: bool) -> ClockView:
+        return ClockView(
+            seconds_left=clocks.remaining_seconds(seat), running=running, simulations_left=self.simulations_left(seat)
+        )
+
+    def simulations_left(self, seat: int) -> int | None:
+        """Shots that this seat may still simulate; None for any number."""
+        simulated = (self.row.simulated_0, self.row.simulated_1)[seat]
+        return None if self.match.simulations is None else max(0, self.match.simulations - simulated)
 
     def terms(self) -> GameTerms:
         """What stays the same throughout the game. The rows were validated when they were written."""
@@ -118,6 +148,7 @@ class LiveGame:
             rules=self.match.rules,
             table=self.match.table,
             noise=noise_view(self.match),
+            budget=budget_view(self.match),
             dry_visits_limit=limits.dry_visits,
             replays_limit=limits.replays,
             strokes_limit=limits.strokes,
@@ -194,5 +225,8 @@ def noise_view(match: Row[Any]) -> NoiseView:
     return NoiseView(told=match.noise_told, level=match.noise_level if told else None)
 
 
-def _clock(clocks: Clocks, seat: int, running: bool) -> ClockView:
-    return ClockView(seconds_left=max(0, clocks.remaining_ns(seat)) / SECOND_NS, running=running)
+def budget_view(match: Row[Any]) -> BudgetView | None:
+    """The match's budget of simulated shots."""
+    if match.simulations is None:
+        return None
+    return BudgetView(simulations=match.simulations, counted="by_honour")

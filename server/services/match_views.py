@@ -27,7 +27,7 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
         rules=match.rules,
         table=match.table,
         noise=noise_view(match),
-        clock=ClockTerms(seconds=match.allowance / SECOND_NS),
+        clock=ClockTerms(seconds=match.allowance / SECOND_NS, simulations=match.simulations),
         challenger=None if match.challenger is None else int(match.challenger == match.seat_1),
         first_breaker=None if match.started_at is None else _first_breaker(match),
         score=score,

@@ -5,6 +5,7 @@ game's seed and the stroke's index alone, so that a shot simulated twice is the 
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from sqlalchemy import Connection, insert
 
@@ -14,7 +15,7 @@ from referee.play import Refused, Stroke, play_stroke
 from referee.record import canonical, stroke_entry
 from referee.wire import DecisionRequest, Fault, ShotRequest, StrokeAnswer, StrokeDetail, shown
 from server import errors
-from server.services import games
+from server.services import games, simulations
 from server.services.commands import Answer, Command, keep, parse, recall
 from server.services.context import Context, Writing
 from server.services.live import LiveGame, find
@@ -23,33 +24,47 @@ from server.store.tables import moves
 
 def shoot(context: Context, game_id: str, command: Command) -> Answer:
     """Play a stroke."""
-    return _act(context, game_id, command, lambda: parse(command, ShotRequest).to_action())
+    return _act(context, game_id, command, lambda: _Asked.of(parse(command, ShotRequest)))
 
 
 def decide(context: Context, game_id: str, command: Command) -> Answer:
     """Make one of the choices that a break leaves."""
-    return _act(context, game_id, command, lambda: parse(command, DecisionRequest).to_action())
+    return _act(context, game_id, command, lambda: _Asked.of(parse(command, DecisionRequest)))
 
 
 def concede(context: Context, game_id: str, command: Command) -> Answer:
     """Give the game up, in turn. The body is not looked at."""
-    return _act(context, game_id, command, lambda: Action(decision=Decision.CONCEDE))
+    return _act(context, game_id, command, lambda: _Asked(Action(decision=Decision.CONCEDE)))
 
 
-def _act(context: Context, game_id: str, command: Command, read_action: Callable[[], Action]) -> Answer:
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """What a request asks for, and the shots its player declares to have simulated for it."""
+
+    action: Action
+    simulated: int = 0
+
+    @classmethod
+    def of(cls, request: ShotRequest | DecisionRequest) -> "_Asked":
+        return cls(request.to_action(), request.simulated)
+
+
+def _act(context: Context, game_id: str, command: Command, read: Callable[[], _Asked]) -> Answer:
     with context.database.reading() as connection:
         live = find(connection, game_id)
         seat = live.seat_of(command.caller)
         if stored := recall(connection, command):
             return stored
         _require_turn(connection, live, seat, command)
-    stroke = _played(live, read_action)
+    asked, stroke = _played(live, read)
     with context.writing() as writing:
         live = find(writing.connection, game_id)
         if stored := recall(writing.connection, command):
             return stored
         _require_turn(writing.connection, live, seat, command)
-        answer = _stored(writing, live, stroke, live.time_of_action(command.arrived))
+        simulations.require_left(live, seat, asked.simulated)
+        end = games.TurnEnd(live.charge_of_action(command.arrived), games.next_move(live), asked.simulated)
+        answer = _stored(writing, live, stroke, end)
         keep(writing.connection, command, answer)
     context.wakeups.notify(live.agents)
     return answer
@@ -94,9 +109,10 @@ def _version(command: Command) -> int:
     return int(digits)
 
 
-def _played(live: LiveGame, read_action: Callable[[], Action]) -> Stroke:
+def _played(live: LiveGame, read: Callable[[], _Asked]) -> tuple[_Asked, Stroke]:
     try:
-        return play_stroke(live.rules, live.game, read_action(), live.seeds, live.noise)
+        asked = read()
+        return asked, play_stroke(live.rules, live.game, asked.action, live.seeds, live.noise)
     except Refused as refused:
         raise errors.Refused([_fault(refusal) for refusal in refused.refusals]) from refused
     except PhysicsError as error:
@@ -114,19 +130,19 @@ def _fault(refusal: Refusal) -> Fault:
     )
 
 
-def _stored(writing: Writing, live: LiveGame, stroke: Stroke, elapsed: int) -> Answer:
+def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd) -> Answer:
     """Write the move, the game that follows and its clocks; the answer to them."""
-    number = live.row.version - games.FIRST_VERSION
+    number = games.next_move(live)
     detail = StrokeDetail.of(stroke, number)
     move = {
         "game_id": live.id,
         "number": number,
         "seat": stroke.seat,
         "stroke": detail.model_dump(mode="json", exclude={"events"}),
-        "line": canonical(stroke_entry(stroke, number, live.row.carried + elapsed)),
+        "line": canonical(stroke_entry(stroke, number, end.charge.charged_ns)),
     }
     writing.connection.execute(insert(moves).values(move | {"created_at": writing.now}))
-    live = games.advance(writing, live, stroke.game, elapsed)
+    live = games.advance(writing, live, stroke.game, end)
     view = live.view(writing.connection, stroke.seat, writing.now)
     message = StrokeAnswer(game=live.id, stroke=detail, view=view, clocks=view.clocks)
     return Answer.of(200, message, etag=f'"{live.row.version}"')

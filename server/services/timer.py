@@ -5,15 +5,15 @@ import contextlib
 import logging
 from collections.abc import AsyncIterator
 from dataclasses import replace
-from typing import Any
 
-from sqlalchemy import select, update
+from sqlalchemy import select
 from starlette.concurrency import run_in_threadpool
 
 from referee.game import EndReason
 from server.services import games as course
-from server.services.context import Context, Writing
-from server.services.live import RUNNING, LiveGame, find
+from server.services import turn_clock
+from server.services.context import Context
+from server.services.live import find
 from server.store.tables import games
 
 log = logging.getLogger("pooliad.server.timer")
@@ -28,7 +28,6 @@ class Timer:
     @contextlib.asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
         """The timer at work for as long as the block lasts."""
-        await run_in_threadpool(resume_clocks, self._context)
         task = asyncio.create_task(self._run())
         try:
             yield
@@ -36,7 +35,6 @@ class Timer:
             task.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await task
-            await run_in_threadpool(stop_clocks, self._context)
 
     async def _run(self) -> None:
         while True:
@@ -66,39 +64,8 @@ def _flag(context: Context, game_id: str, now: int) -> None:
         deadline = live.row.deadline
         if deadline is None or deadline > now or context.is_in_hand(game_id, deadline):
             return
-        at_deadline = replace(writing, now=deadline)
-        course.end_from_outside(at_deadline, live, EndReason.TIME_OUT, live.game.turn)
+        # the deadline of a turn that nobody ever fetched may come before its clock runs out
+        timed_out = deadline >= turn_clock.running_turn(live).runs_out(live.row.clock_from)
+        reason = EndReason.TIME_OUT if timed_out else EndReason.NO_SHOW
+        course.end_from_outside(replace(writing, now=deadline), live, reason, live.game.turn)
     context.wakeups.notify(live.agents)
-
-
-def stop_clocks(context: Context) -> None:
-    """Charge every running turn for the time until now: the server goes down, and no clock runs meanwhile."""
-    with context.writing() as writing:
-        for live in _running(writing):
-            elapsed = live.elapsed(writing.now)
-            used = live.clocks.charged(live.game.turn, elapsed).used_ns
-            carried = live.row.carried + elapsed
-            values = {"used_0": used[0], "used_1": used[1], "carried": carried}
-            _update(writing, live.id, values | {"clock_from": live.row.clock_from + elapsed})
-
-
-def resume_clocks(context: Context) -> None:
-    """After a start every turn is to be fetched anew; nobody pays for the time the server was away.
-
-    A turn that ran when the server was killed is charged nothing for it.
-    """
-    with context.writing() as writing:
-        clock_from = writing.now + context.fetch_grace
-        for live in _running(writing):
-            left = live.clocks.remaining_ns(live.game.turn)
-            turn = {"delivered": False, "available_at": writing.now, "clock_from": clock_from}
-            _update(writing, live.id, turn | {"deadline": clock_from + left})
-
-
-def _running(writing: Writing) -> list[LiveGame]:
-    ids = writing.connection.scalars(select(games.c.id).where(games.c.status == RUNNING)).all()
-    return [find(writing.connection, game_id) for game_id in ids]
-
-
-def _update(writing: Writing, game_id: str, values: dict[str, Any]) -> None:
-    writing.connection.execute(update(games).where(games.c.id == game_id).values(values))

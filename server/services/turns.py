@@ -8,6 +8,7 @@ from sqlalchemy import Connection, Row, select, update
 from starlette.concurrency import run_in_threadpool
 
 from referee.wire import Turn
+from server.services import turn_clock
 from server.services.context import Context
 from server.services.live import find
 from server.store.tables import games, notices
@@ -77,14 +78,11 @@ def _waiting_turn(connection: Connection, agent: str, now: int) -> Row[Any] | No
 
 def _delivered(connection: Connection, turn: Row[Any], agent: str, now: int) -> bytes:
     """The turn as a message; the first delivery starts the clock, unless it runs already."""
-    if not turn.delivered:
-        early = max(0, turn.clock_from - now)
-        started = {
-            "delivered": True,
-            "clock_from": turn.clock_from - early,
-            "deadline": turn.deadline - early,
-        }
-        connection.execute(update(games).where(games.c.id == turn.id).values(**started))
     live = find(connection, turn.id)
+    if not turn.delivered:
+        started = turn_clock.delivered(turn_clock.running_turn(live), turn.available_at, min(turn.clock_from, now))
+        started[f"present_{live.game.turn}"] = True
+        connection.execute(update(games).where(games.c.id == turn.id).values(**started))
+        live = find(connection, turn.id)
     view = live.view(connection, live.agents.index(agent), now)
     return Turn(game=turn.id, view=view).model_dump_json().encode()

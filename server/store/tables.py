@@ -77,6 +77,9 @@ matches = Table(
     Column("noise_level", Double, nullable=False),
     Column("noise_told", Boolean, nullable=False),
     Column("allowance", BigInteger, nullable=False),
+    Column("simulations", BigInteger),
+    Column("lag_turn", BigInteger, nullable=False),
+    Column("lag_game", BigInteger, nullable=False),
     Column("seed", String(64), nullable=False),
     Column("start", JSON(none_as_null=True)),
     Column("created_at", BigInteger, nullable=False),
@@ -100,6 +103,12 @@ games = Table(
     Column("mover", Identifier, ForeignKey("agents.id"), index=True),
     Column("used_0", BigInteger, nullable=False),
     Column("used_1", BigInteger, nullable=False),
+    Column("lag_0", BigInteger, nullable=False),
+    Column("lag_1", BigInteger, nullable=False),
+    Column("simulated_0", BigInteger, nullable=False),
+    Column("simulated_1", BigInteger, nullable=False),
+    Column("present_0", Boolean, nullable=False),
+    Column("present_1", Boolean, nullable=False),
     Column("carried", BigInteger, nullable=False),
     Column("delivered", Boolean, nullable=False),
     Column("available_at", BigInteger, nullable=False),
@@ -112,9 +121,33 @@ games = Table(
     UniqueConstraint("match_id", "number"),
 )
 """`mover`: whose turn it is, null when the game is over. `clock_from`: when the turn's clock starts or
-started; `deadline`: when it runs out, null when the game is over. `carried`: what of `used` the running
-turn was charged before the server stopped. `header` and `ending`: the first and the last line of the
-record."""
+started; `deadline`: when the turn is over unplayed, null when the game is over. `used`: charged for turns that are
+over, `lag`: given back for them, by seat. `carried`: what the running turn took before the server stopped.
+`simulated`: shots simulated or declared, by seat. `present`: whether the player ever fetched a turn of this game or
+played one. `header` and `ending`: the first and the last line of the record."""
+
+charges = Table(
+    "charges",
+    metadata,
+    Column("sequence", Sequence, primary_key=True, autoincrement=True),
+    Column("game_id", Identifier, ForeignKey("games.id"), nullable=False, index=True),
+    Column("seat", Integer, nullable=False),
+    Column("move", Integer),
+    Column("measured", BigInteger, nullable=False),
+    Column("lag", BigInteger, nullable=False),
+    Column("created_at", BigInteger, nullable=False),
+)
+"""The ledger of a game's clocks: a row for every turn that is over, `move` null where no move ended it. `measured` less
+`lag` was charged."""
+
+heartbeats = Table(
+    "heartbeats",
+    metadata,
+    Column("process", Identifier, primary_key=True),
+    Column("beat_at", BigInteger, nullable=False),
+    Column("stopped", Boolean, nullable=False),
+)
+"""When each server process was last alive; `stopped`: it left in good order."""
 
 moves = Table(
     "moves",

@@ -53,6 +53,9 @@ def upgrade() -> None:
         sa.Column("noise_level", sa.Double(), nullable=False),
         sa.Column("noise_told", sa.Boolean(), nullable=False),
         sa.Column("allowance", sa.BigInteger(), nullable=False),
+        sa.Column("simulations", sa.BigInteger(), nullable=True),
+        sa.Column("lag_turn", sa.BigInteger(), nullable=False),
+        sa.Column("lag_game", sa.BigInteger(), nullable=False),
         sa.Column("seed", sa.String(length=64), nullable=False),
         sa.Column("start", sa.JSON(), nullable=True),
         sa.Column("created_at", sa.BigInteger(), nullable=False),
@@ -106,6 +109,12 @@ def upgrade() -> None:
         sa.Column("mover", sa.String(length=64), nullable=True),
         sa.Column("used_0", sa.BigInteger(), nullable=False),
         sa.Column("used_1", sa.BigInteger(), nullable=False),
+        sa.Column("lag_0", sa.BigInteger(), nullable=False),
+        sa.Column("lag_1", sa.BigInteger(), nullable=False),
+        sa.Column("simulated_0", sa.BigInteger(), nullable=False),
+        sa.Column("simulated_1", sa.BigInteger(), nullable=False),
+        sa.Column("present_0", sa.Boolean(), nullable=False),
+        sa.Column("present_1", sa.Boolean(), nullable=False),
         sa.Column("carried", sa.BigInteger(), nullable=False),
         sa.Column("delivered", sa.Boolean(), nullable=False),
         sa.Column("available_at", sa.BigInteger(), nullable=False),
@@ -122,6 +131,31 @@ def upgrade() -> None:
     )
     op.create_index(op.f("ix_games_deadline"), "games", ["deadline"], unique=False)
     op.create_index(op.f("ix_games_mover"), "games", ["mover"], unique=False)
+    op.create_table(
+        "charges",
+        sa.Column(
+            "sequence",
+            sa.BigInteger().with_variant(sa.Integer(), "sqlite"),
+            autoincrement=True,
+            nullable=False,
+        ),
+        sa.Column("game_id", sa.String(length=64), nullable=False),
+        sa.Column("seat", sa.Integer(), nullable=False),
+        sa.Column("move", sa.Integer(), nullable=True),
+        sa.Column("measured", sa.BigInteger(), nullable=False),
+        sa.Column("lag", sa.BigInteger(), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.ForeignKeyConstraint(["game_id"], ["games.id"], name=op.f("fk_charges_game_id_games")),
+        sa.PrimaryKeyConstraint("sequence", name=op.f("pk_charges")),
+    )
+    op.create_index(op.f("ix_charges_game_id"), "charges", ["game_id"], unique=False)
+    op.create_table(
+        "heartbeats",
+        sa.Column("process", sa.String(length=64), nullable=False),
+        sa.Column("beat_at", sa.BigInteger(), nullable=False),
+        sa.Column("stopped", sa.Boolean(), nullable=False),
+        sa.PrimaryKeyConstraint("process", name=op.f("pk_heartbeats")),
+    )
     op.create_table(
         "moves",
         sa.Column(
@@ -145,6 +179,9 @@ def upgrade() -> None:
 def downgrade() -> None:
     """Drop them."""
     op.drop_table("moves")
+    op.drop_table("heartbeats")
+    op.drop_index(op.f("ix_charges_game_id"), table_name="charges")
+    op.drop_table("charges")
     op.drop_index(op.f("ix_games_mover"), table_name="games")
     op.drop_index(op.f("ix_games_deadline"), table_name="games")
     op.drop_table("games")

@@ -1,0 +1,111 @@
+"""Signs of life in the database, so that nobody is charged for time in which no server process ran.
+
+Every process leaves a heartbeat each second. One that starts and finds no other alive knows how long there was none:
+every running turn is charged up to the last heartbeat and no further, and is to be fetched anew.
+"""
+
+import asyncio
+import contextlib
+import logging
+import secrets
+from collections.abc import AsyncIterator
+
+from sqlalchemy import Connection, delete, func, insert, select, update
+from starlette.concurrency import run_in_threadpool
+
+from referee.play import nanoseconds
+from server.services import turn_clock
+from server.services.context import Context, Writing
+from server.services.live import RUNNING, find
+from server.store.tables import games, heartbeats
+
+log = logging.getLogger("pooliad.server.heartbeat")
+
+MISSED_BEATS = 3
+"""A process that missed so many beats is dead: fewer and a busy disk looks like a death, more and a new start waits."""
+
+
+class Heartbeat:
+    """This process's signs of life."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._process = f"process_{secrets.token_hex(8)}"
+        self._period = context.settings.heartbeat_period
+
+    @contextlib.asynccontextmanager
+    async def beating(self) -> AsyncIterator[None]:
+        """Take up the games that wait, and beat for as long as the block lasts."""
+        await self._take_up()
+        task = asyncio.create_task(self._run())
+        try:
+            yield
+        finally:
+            task.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await task
+            await run_in_threadpool(beat, self._context, self._process, stopped=True)
+
+    async def _take_up(self) -> None:
+        """Begin to beat; if no other process is alive, the clocks stood still since the last beat.
+
+        One that beat a moment ago may be alive, or killed a moment ago: the next beats will tell.
+        """
+        others = await run_in_threadpool(alive, self._context)
+        if others and self._context.shared:
+            await asyncio.sleep(MISSED_BEATS * self._period)
+            others = await run_in_threadpool(beating_since, self._context, others)
+        await run_in_threadpool(begin, self._context, self._process, alone=not (others and self._context.shared))
+
+    async def _run(self) -> None:
+        while True:
+            await asyncio.sleep(self._period)
+            try:
+                await run_in_threadpool(beat, self._context, self._process)
+            except Exception:
+                log.exception("no heartbeat; the next is due in %g s", self._period)
+
+
+def alive(context: Context) -> dict[str, int]:
+    """The processes that may be alive, with their last heartbeats."""
+    since = context.time.now() - nanoseconds(MISSED_BEATS * context.settings.heartbeat_period)
+    fresh = (heartbeats.c.beat_at > since) & heartbeats.c.stopped.is_(False)
+    with context.database.reading() as connection:
+        return {row.process: row.beat_at for row in connection.execute(select(heartbeats).where(fresh))}
+
+
+def beating_since(context: Context, before: dict[str, int]) -> dict[str, int]:
+    """Those of the processes that went on beating, or others that have begun to."""
+    return {process: at for process, at in alive(context).items() if at > before.get(process, 0)}
+
+
+def begin(context: Context, process: str, *, alone: bool) -> None:
+    """The first heartbeat; `alone` the process also takes up the games that stood still."""
+    with context.writing() as writing:
+        if alone:
+            last = writing.connection.scalar(select(func.max(heartbeats.c.beat_at)))
+            _take_up_games(writing, writing.now if last is None else min(last, writing.now))
+            writing.connection.execute(delete(heartbeats))
+        writing.connection.execute(insert(heartbeats).values(process=process, beat_at=writing.now, stopped=False))
+
+
+def beat(context: Context, process: str, *, stopped: bool = False) -> None:
+    """One more heartbeat."""
+    with context.writing() as writing:
+        _beat(writing.connection, process, writing.now, stopped)
+
+
+def _beat(connection: Connection, process: str, now: int, stopped: bool) -> None:
+    this = heartbeats.c.process == process
+    values = {"beat_at": now, "stopped": stopped}
+    if connection.execute(update(heartbeats).where(this).values(values)).rowcount != 1:
+        connection.execute(insert(heartbeats).values(process=process, **values))
+
+
+def _take_up_games(writing: Writing, last: int) -> None:
+    """Charge every running turn up to the last heartbeat; it is to be fetched anew."""
+    for game_id in writing.connection.scalars(select(games.c.id).where(games.c.status == RUNNING)).all():
+        live = find(writing.connection, game_id)
+        carried = turn_clock.carried_on(live, live.running_for(last))
+        turn = turn_clock.available(writing, carried)
+        writing.connection.execute(update(games).where(games.c.id == game_id).values(turn))

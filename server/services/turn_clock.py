@@ -1,0 +1,85 @@
+"""When a turn is over although nobody plays it: out of time, or nobody there."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from sqlalchemy import Row
+
+from referee.game import Game
+from referee.play import LagAllowance
+from server.services.context import Writing
+from server.services.live import LiveGame
+
+
+@dataclass(frozen=True, slots=True)
+class TurnClock:
+    """What a turn may take, ns.
+
+    Attributes:
+        remaining: on the player's clock.
+        lag: given back for it at most.
+        carried: of it gone before the server stopped.
+        present: whether the player was ever there in this game.
+    """
+
+    remaining: int
+    lag: int
+    carried: int = 0
+    present: bool = True
+
+    def runs_out(self, clock_from: int) -> int:
+        """When the turn is out of time, its clock running since `clock_from`."""
+        return clock_from + self.remaining + self.lag - self.carried
+
+
+def first_turn(match: Row[Any]) -> TurnClock:
+    """The first turn of a game."""
+    return TurnClock(match.allowance, LagAllowance(match.lag_turn, match.lag_game).left_ns(0), present=False)
+
+
+def running_turn(live: LiveGame) -> TurnClock:
+    """The turn that a game waits for."""
+    seat = live.game.turn
+    return TurnClock(
+        remaining=live.clocks.remaining_ns(seat),
+        lag=live.lag.left_ns(live.granted[seat]),
+        carried=live.row.carried,
+        present=live.is_present[seat],
+    )
+
+
+def carried_on(live: LiveGame, ran: int) -> TurnClock:
+    """The turn that a game waits for, of which so much more is gone."""
+    clock = running_turn(live)
+    return replace(clock, carried=clock.carried + ran)
+
+
+def available(writing: Writing, clock: TurnClock) -> dict[str, Any]:
+    """The columns of a turn that waits to be fetched: its clock starts by itself after the grace."""
+    clock_from = writing.now + writing.context.fetch_grace
+    deadline = clock.runs_out(clock_from)
+    if not clock.present:
+        deadline = min(deadline, writing.now + writing.context.no_show_after)
+    return {
+        "delivered": False,
+        "available_at": writing.now,
+        "clock_from": clock_from,
+        "deadline": deadline,
+        "carried": clock.carried,
+    }
+
+
+def delivered(clock: TurnClock, available_at: int, clock_from: int) -> dict[str, Any]:
+    """The columns of a turn in its player's hands, the clock running since `clock_from`."""
+    return {
+        "delivered": True,
+        "available_at": available_at,
+        "clock_from": clock_from,
+        "deadline": clock.runs_out(clock_from),
+        "carried": clock.carried,
+    }
+
+
+def mover(match: Row[Any], game: Game) -> dict[str, Any]:
+    """Whose turn it is."""
+    return {"mover": (match.seat_0, match.seat_1)[game.turn]}
