@@ -12,6 +12,9 @@ ENVIRONMENT_PREFIX = "POOLIAD_"
 SHORTEST_ORGANISER_TOKEN = 32
 """Characters. 32 hexadecimal digits are 128 bits, the least that no one guesses."""
 
+MAY_BE_ZERO = frozenset({"lag_turn", "lag_game"})
+"""Zero turns these off; the others need a number above it."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settings:
@@ -46,7 +49,9 @@ class Settings:
             raise SettingsError(f"database is {self.database!r}; allowed: sqlite:///path (a file)")
         for field in fields(self):
             value = getattr(self, field.name)
-            if isinstance(value, int | float) and not (math.isfinite(value) and value > 0):
+            if isinstance(value, int | float) and not (math.isfinite(value) and value >= 0):
+                raise SettingsError(f"{field.name} is {value!r}; allowed: a finite number, 0 or above")
+            if value == 0 and field.name not in MAY_BE_ZERO:
                 raise SettingsError(f"{field.name} is {value!r}; allowed: a finite number above 0")
 
     @classmethod

@@ -51,7 +51,12 @@ def _one_kind_of_call(value: Any, handler: ValidatorFunctionWrapHandler) -> Any:
 
 Simulated = Annotated[
     Integer,
-    Field(ge=0, le=SIMULATIONS_MAX, description="Shots simulated elsewhere since the last action, by honour."),
+    Field(
+        ge=0,
+        le=SIMULATIONS_MAX,
+        description="Shots simulated elsewhere since the last action, by honour.",
+        exclude_if=lambda shots: shots == 0,
+    ),
 ]
 
 Called = Annotated[CallRequest | Literal["safety"] | None, WrapValidator(_one_kind_of_call)]

@@ -21,7 +21,7 @@ def test_the_clock_starts_with_the_first_delivery_and_goes_on_at_the_next(new_ta
     time.sleep(0.3)
     first = seconds_left(table, seat)
     table.mover()
-    assert 90.0 < seconds_left(table, seat) < first <= 99.7
+    assert 90.0 < seconds_left(table, seat) < first <= 99.75  # 0.05 s of a turn are given back for lag
     assert seconds_left(table, 1 - seat) == 100.0
 
 
@@ -29,7 +29,7 @@ def test_a_turn_nobody_fetches_starts_its_clock_by_itself(own_server, table_at):
     server = own_server(POOLIAD_FETCH_GRACE="0.3")
     table = table_at(server, clock={"seconds": 100.0})
     time.sleep(1.0)
-    assert 90.0 < seconds_left(table, table.match["first_breaker"]) <= 99.3
+    assert 90.0 < seconds_left(table, table.match["first_breaker"]) <= 99.35
 
 
 def test_the_time_of_a_stroke_is_charged_and_the_other_clock_stands(new_table, break_shot):
@@ -38,14 +38,15 @@ def test_the_time_of_a_stroke_is_charged_and_the_other_clock_stands(new_table, b
     time.sleep(0.3)
     answer = mover.act(view, break_shot).json()
     seat = view["seat"]
-    assert 90.0 < answer["clocks"][seat]["seconds_left"] <= 99.7
-    assert answer["clocks"][1 - seat] == {"seconds_left": 100.0, "running": False}
+    assert 90.0 < answer["clocks"][seat]["seconds_left"] <= 99.75
+    assert answer["clocks"][1 - seat] == {"seconds_left": 100.0, "running": False, "simulations_left": None}
 
 
 def test_a_refused_shot_costs_time_and_nothing_else(new_table, break_shot):
     table = new_table(clock={"seconds": 100.0})
     mover, view = table.mover()
     before = seconds_left(table, view["seat"])
+    time.sleep(0.1)
     assert mover.act(view, break_shot | {"call": "safety"}).status_code == 422
     assert seconds_left(table, view["seat"]) < before
     assert mover.act(view, break_shot).status_code == 200
@@ -59,7 +60,7 @@ def test_a_timer_ends_the_game_without_being_asked(new_table):
     assert message["type"] == "game_over"
     assert message["outcome"] == {"winner": 1 - view["seat"], "reason": "time_out", "rule": "R48"}
     assert message["won"] is True
-    assert message["view"]["clocks"][view["seat"]] == {"seconds_left": 0.0, "running": False}
+    assert message["view"]["clocks"][view["seat"]] == {"seconds_left": 0.0, "running": False, "simulations_left": None}
     assert mover.turn()["outcome"]["reason"] == "time_out"
     record = table.organiser.get(f"/v1/games/{view['game']}/record").text.splitlines()
     assert verify_record(record).ok
@@ -98,7 +99,7 @@ def test_the_clock_stops_when_the_body_is_complete(new_table, break_shot):
     response = mover.request("POST", f"/v1/games/{view['game']}/shots", content=trickle(), headers=headers)
     assert response.status_code == 422
     answer = mover.act(view, break_shot).json()
-    assert answer["clocks"][view["seat"]]["seconds_left"] < 99.4
+    assert answer["clocks"][view["seat"]]["seconds_left"] < 99.45
 
 
 def test_downtime_costs_nobody_anything(own_server, table_at):
@@ -115,7 +116,7 @@ def test_downtime_costs_nobody_anything(own_server, table_at):
     time.sleep(2.0)
     server.restart()
     after = seconds_left(table, seat)
-    assert before - stopped - 0.1 < after <= before <= 99.5
+    assert before - stopped - 0.1 < after <= before <= 99.55
     assert table.players[seat].turn()["view"]["clocks"][seat]["seconds_left"] == after
 
 

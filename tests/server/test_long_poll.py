@@ -99,7 +99,7 @@ def test_a_caller_who_hung_up_is_told_nothing(new_table, break_shot, server):
     mover.act(view, soft)
     time.sleep(0.5)
     clock = table.organiser.get(f"/v1/games/{table.game}").json()["view"]["clocks"][other_seat(view)]
-    assert clock == {"seconds_left": 100.0, "running": False}
+    assert clock == {"seconds_left": 100.0, "running": False, "simulations_left": None}
 
 
 def test_the_organiser_has_no_turns(organiser):

@@ -32,7 +32,7 @@ class StoppedTime:
 def context(tmp_path):
     database = Database(f"sqlite:///{tmp_path / 'timer.db'}")
     upgrade(database)
-    yield Context(Settings(), database, time=StoppedTime())
+    yield Context(Settings(lag_turn=0.0, lag_game=0.0), database, time=StoppedTime())
     database.dispose()
 
 

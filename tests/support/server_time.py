@@ -1,0 +1,87 @@
+"""A server's services over a real database file, at a time that moves when it is told to."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from referee.wire import AgentRequest
+from server.security.callers import ORGANISER, Caller
+from server.services import agents, matches, strokes, turns
+from server.services.commands import Command
+from server.services.context import Context
+from server.services.timer import flag
+from server.settings import Settings
+from server.store.database import Database
+from server.store.upgrade import upgrade
+
+SECOND = 1_000_000_000
+TERMS = {"clock": {"seconds": 10.0}}
+
+
+class StoppedTime:
+    """A time that moves when it is told to, in nanoseconds."""
+
+    def __init__(self) -> None:
+        self.value = 1_000 * SECOND
+
+    def now(self) -> int:
+        return self.value
+
+    def pass_(self, seconds: float) -> None:
+        self.value += round(seconds * SECOND)
+
+
+class Stage:
+    """A database, its context, and the games played on it; closed at the end."""
+
+    def __init__(self, path: Path, **settings: Any) -> None:
+        self.time = StoppedTime()
+        database = Database(f"sqlite:///{path}")
+        upgrade(database)
+        self.context = Context(Settings(**settings), database, time=self.time)  # type: ignore[arg-type]
+
+    def close(self) -> None:
+        self.context.database.dispose()
+
+    def game(self, *names: str, **terms: Any) -> "Seats":
+        """A running game between two new agents."""
+        registered = [agents.register(self.context, AgentRequest(name=name)) for name in names]
+        ids = [json.loads(answer.body)["agent"]["id"] for answer in registered]
+        body = json.dumps({"agents": ids} | TERMS | terms).encode()
+        match = json.loads(matches.create(self.context, self.command(ORGANISER, body, key=names[0])).body)
+        return Seats(self, match["played"][0]["id"], ids, match["first_breaker"])
+
+    def command(self, caller: str, body: bytes = b"", key: str = "k", version: int | None = None) -> Command:
+        """A complete request that arrives now."""
+        if_match = None if version is None else f'"{version}"'
+        return Command(Caller(caller, "t"), "/route", key, if_match, "application/json", body, self.time.now())
+
+    def news(self, agent: str) -> dict[str, Any] | None:
+        """What the agent is told next, after the timer has looked."""
+        flag(self.context)
+        message = turns.next_message(self.context, agent)
+        return None if message is None else json.loads(message)
+
+
+class Seats:
+    """One game and its players."""
+
+    def __init__(self, stage: Stage, game: str, ids: list[str], breaker: int) -> None:
+        self.stage, self.id, self.ids, self.breaker = stage, game, ids, breaker
+
+    @property
+    def mover(self) -> str:
+        """Whose the break is."""
+        return self.ids[self.breaker]
+
+    def fetch(self) -> dict[str, Any]:
+        """The breaker fetches the turn."""
+        message = self.stage.news(self.mover)
+        assert message is not None
+        assert message["type"] == "turn"
+        return dict(message["view"])
+
+    def concede(self) -> dict[str, Any]:
+        """The breaker gives up, which ends the turn; the answer."""
+        command = self.stage.command(self.mover, key="c", version=1)
+        return dict(json.loads(strokes.concede(self.stage.context, self.id, command).body))
