@@ -12,5 +12,6 @@ BENCHMARKS = {
     "savings": "counters of the work done and skipped, and what each saving is worth",
     "chained": "10^5 random shots, each from where the last one ended, through JSON: is any start refused?",
     "agents": "the shipped greedy against random: games won, called balls made, seconds a stroke",
+    "search_breaks": "the study behind the break of `search`: random breaks, halved again and again",
 }
 """Module in this package to one line about it."""

@@ -10,12 +10,13 @@ from client.errors import AgentNotFound
 SHIPPED = {
     "random": "client.agents.random_agent:RandomAgent",
     "greedy": "client.agents.greedy:GreedyAgent",
+    "search": "client.agents.search:SearchAgent",
 }
-"""Name to import path. The classes are imported when asked for: `greedy` needs the compiled physics."""
+"""Name to import path. The classes are imported when asked for: `greedy` and `search` need the compiled physics."""
 
 
 Player = AgentFactory | str
-"""An `Agent` class, a function that makes agents, or a name: `random`, `greedy`, `module:Class`."""
+"""An `Agent` class, a function that makes agents, or a name: `random`, `search:seconds=0.3`, `module:Class`."""
 
 
 def factory_of(player: Player, seed: int | None = None) -> AgentFactory:
@@ -27,22 +28,59 @@ def load(name: str, seed: int | None = None) -> AgentFactory:
     """A function that makes instances of the agent called `name`.
 
     Args:
-        name: of a shipped agent, or `module:Class` with the module on the import path.
+        name: of a shipped agent, with options if it has any (`search:seconds=0.3,lookahead=off`), or `module:Class`
+            with the module on the import path.
         seed: makes a shipped agent repeat its choices; other agents keep their own randomness.
 
     Raises:
-        AgentNotFound: no such name, module or class, or the class is no `client.Agent`.
+        AgentNotFound: no such name, option, module or class, or the class is no `client.Agent`.
     """
-    if name in SHIPPED:
-        return partial(_class_at(SHIPPED[name]), seed=seed)
+    shipped, _, options = name.partition(":")
+    if shipped in SHIPPED:
+        return _with_options(name, partial(_class_at(SHIPPED[shipped]), seed=seed, **_options(name, options)))
     factory: AgentFactory = _class_at(name)
     return factory
 
 
 def titles(first: str, second: str) -> tuple[str, str]:
     """What to call two players in a match: their names or class names, numbered when they are the same."""
-    one, other = first.rpartition(":")[2], second.rpartition(":")[2]
+    one, other = _title(first), _title(second)
     return (one, other) if one != other else (f"{one}-1", f"{other}-2")
+
+
+def _title(name: str) -> str:
+    """A shipped agent's name with its options, another's class name."""
+    return name if name.partition(":")[0] in SHIPPED else name.rpartition(":")[2]
+
+
+def _options(name: str, text: str) -> dict[str, bool | int | float | str]:
+    """The options of a name: `seconds=0.3,lookahead=off` as values by option."""
+    pairs = [pair.partition("=") for pair in text.split(",")] if text else []
+    for option, equals, value in pairs:
+        if not (option and equals and value):
+            raise AgentNotFound(f"agent {name!r}: options go as name:option=value,option=value")
+    return {option: _value(value) for option, _, value in pairs}
+
+
+def _value(text: str) -> bool | int | float | str:
+    """What an option's text means: on, off, a number, or itself."""
+    if text in ("on", "off"):
+        return text == "on"
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
+
+
+def _with_options(name: str, factory: AgentFactory) -> AgentFactory:
+    """The factory, once it has shown that it can make an agent with these options."""
+    try:
+        factory()
+    except (TypeError, ValueError) as error:
+        raise AgentNotFound(f"agent {name!r}: {error}") from error
+    return factory
 
 
 def _class_at(path: str) -> Any:

@@ -1,0 +1,141 @@
+"""The study behind the break of `search`: many breaks on many racks under noise, ruled on and valued.
+
+Successive halving over random breaks: the cue ball's place in the kitchen, speed, aim beside the apex ball, tip.
+A break is worth what the table after it is worth to the breaker, by the agent's own values. The winner at each level of
+noise is copied into `client/agents/search/breaks.py`, which cites the data line.
+"""
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+
+import physics
+from benchmarks.command import main
+from benchmarks.recording import Row, Tables
+from client.agents.search.breaks import BREAKING, Break, best_break
+from client.agents.search.evaluate import SIGMAS
+from client.agents.search.sight import Sight
+from client.agents.search.value import Values
+from physics.constants import V_MAX
+from physics.shot import FIELDS
+from referee import Action, Decision, EightBall, Game, Phase, Ruling
+
+SEED = 20
+LEVELS = (0.0, 1.0, 5.0)
+ROUNDS = ((1000, 48), (150, 200), (30, 1000), (6, 5000))
+"""Breaks kept, and how many racks and draws each is played on; a short run has a tenth of the breaks and leaves
+the last round out."""
+NEIGHBOURS, STEPS = 4, (0.015, 0.01, 0.25, 1.2, 1.0, 1.0)
+"""After the first round the best get neighbours, so far away: m, m, m/s, mm, mm, mm."""
+LEAST_BEHIND = 0.002
+"""m behind the head string."""
+TABLE = physics.Table.olympiad()
+RULES = EightBall(TABLE)
+
+
+def measure(full: bool) -> Tables:
+    """The best breaks of each level, and the one that is played now."""
+    rounds = ROUNDS if full else tuple((max(2, kept // 10), racks) for kept, racks in ROUNDS[:-1])
+    return {f"noise_{level:g}": study(level, rounds) for level in LEVELS}
+
+
+def study(level: float, rounds: tuple[tuple[int, int], ...]) -> list[Row]:
+    """The best breaks under one level of noise, the best first."""
+    chance = np.random.default_rng(SEED)
+    breaks = [best_break(level), *(random_break(chance) for _ in range(rounds[0][0] - 1))]
+    rows: list[Row] = []
+    for number, (kept, racks) in enumerate(rounds):
+        breaks = breaks[:kept]
+        if number == 1:
+            breaks += [near(one, chance) for one in breaks[: kept // 4] for _ in range(NEIGHBOURS)]
+        games = [RULES.new_game(1000 * number + rack) for rack in range(min(racks, 500))]
+        rows = [row(one, level, games, racks, number) for one in breaks]
+        order = sorted(range(len(rows)), key=lambda index: -float(rows[index]["worth"]))
+        breaks, rows = [breaks[index] for index in order], [rows[index] for index in order]
+    return rows
+
+
+def random_break(chance: np.random.Generator) -> Break:
+    """A break from anywhere in the kitchen, hard, at the apex ball or beside it."""
+    radius = TABLE.ball_radius
+    return Break(
+        x=round(float(chance.uniform(radius, 0.5 * TABLE.width)), 4),
+        y=round(float(chance.uniform(TABLE.head_string + LEAST_BEHIND, TABLE.head_string + 0.25)), 4),
+        v=round(float(chance.choice([V_MAX, chance.uniform(5.0, V_MAX)])), 2),
+        aim=round(float(chance.normal(0.0, 16.0)), 2),
+        a=round(float(chance.choice([0.0, chance.uniform(-12.0, 12.0)])), 2),
+        b=round(float(chance.uniform(-14.0, 14.0)), 2),
+    )
+
+
+def near(one: Break, chance: np.random.Generator) -> Break:
+    """A break much like this one."""
+    x, y, v, aim, a, b = (
+        value + step * float(chance.normal()) for value, step in zip(dataclasses.astuple(one), STEPS, strict=True)
+    )
+    y, v = max(y, TABLE.head_string + LEAST_BEHIND), min(v, V_MAX)
+    return Break(round(x, 4), round(y, 4), round(v, 2), round(aim, 2), round(a, 2), round(b, 2))
+
+
+def row(one: Break, level: float, games: list[Game], copies: int, number: int) -> Row:
+    """How one break does on these racks."""
+    chance = np.random.default_rng([SEED, number])
+    rulings = [ruling for game in games for ruling in broken(one, level, game, max(1, copies // len(games)), chance)]
+    worths = worth(level, rulings)
+    fouled = [bool(ruling.fouls) for ruling in rulings]
+    return {
+        **dataclasses.asdict(one),
+        "breaks": len(rulings),
+        "worth": round(float(np.mean(worths)), 4),
+        "error": round(float(np.std(worths) / len(worths) ** 0.5), 4),
+        "goes_on": round(float(np.mean([each.game.turn == 0 and not each.fouls for each in rulings])), 4),
+        "fouls": round(float(np.mean(fouled)), 4),
+        "illegal": round(float(np.mean([each.game.choice in ("R12", "R12a") for each in rulings])), 4),
+        "eight_down": round(float(np.mean([each.game.choice in ("R13", "R14") for each in rulings])), 4),
+    }
+
+
+def broken(one: Break, level: float, game: Game, copies: int, chance: np.random.Generator) -> list[Ruling]:
+    """The rulings on a break played so often on one rack."""
+    state = game.state.moved(0, one.place)
+    shot = one.stroke(TABLE, state)
+    strokes = np.array([[getattr(shot, name) for name in FIELDS]] * (copies if level > 0.0 else 1))
+    strokes = strokes + level * SIGMAS * chance.standard_normal(strokes.shape)
+    strokes[:, 0] = np.clip(strokes[:, 0], 0.0, V_MAX)
+    batch = physics.simulate_batch(TABLE, state, strokes)
+    return RULES.apply_batch(game, [Action(shot=shot, cue_ball=one.place)] * len(strokes), batch)
+
+
+def worth(level: float, rulings: list[Ruling]) -> NDArray[np.float64]:
+    """What each break leaves its player, seat 0; a choice is worth its best answer to whoever decides."""
+    return np.array([settled(level, ruling.game) for ruling in rulings])
+
+
+def settled(level: float, game: Game) -> float:
+    """A game's worth to seat 0."""
+    if game.phase is not Phase.DECISION:
+        return to_breaker(level, game)
+    answers = [decided(level, game, each) for each in game.decisions]
+    return max(answers) if game.turn == 0 else min(answers)
+
+
+def decided(level: float, game: Game, decision: Decision) -> float:
+    """The worth to seat 0 when the player in turn decides so."""
+    ruling = RULES.apply(game, Action(decision=decision), None, None)
+    if ruling.rerack:
+        return BREAKING if ruling.game.turn == 0 else 1.0 - BREAKING
+    return to_breaker(level, ruling.game)
+
+
+def to_breaker(level: float, game: Game) -> float:
+    """The worth to seat 0 of a table somebody shoots from."""
+    values = Values(Sight(TABLE, level), level)
+    kitchen = TABLE.head_string if game.cue_ball_in_hand == "kitchen" else 0.0
+    hand = np.array([game.cue_ball_in_hand is not None])
+    shooter = float(values.to_shoot(game.state.positions[None], np.array([-1], np.int8), hand, kitchen)[0])
+    return shooter if game.turn == 0 else 1.0 - shooter
+
+
+if __name__ == "__main__":
+    main("search_breaks", measure)

@@ -1,0 +1,95 @@
+"""The agent: a turn from its view to its action."""
+
+import time
+from typing import Any
+
+from client.agent import Agent
+from client.agents.chance import generator
+from client.agents.search import breaks
+from client.agents.search.budget import Budget, Pace, allowance
+from client.agents.search.engine import geometry
+from client.agents.search.evaluate import Evaluator
+from client.agents.search.options import Options
+from client.agents.search.sight import Sight
+from client.agents.search.thinking import Thought, Turn
+from client.agents.search.value import Values
+from referee import Action, Decision, EightBall, Game, Phase
+from referee.wire import View
+
+USUAL_NOISE = 1.0
+"""The level to reckon with when the game does not tell."""
+
+
+class SearchAgent(Agent):
+    """Looks for the stroke that wins most, by simulating what comes of it and of the strokes after it.
+
+    Args:
+        seed: repeats its draws; with `shots` among the options it repeats its choices. None draws fresh ones.
+        options: by name, see `client.agents.search.options.Options`.
+
+    Attributes:
+        thoughts: what it thought about each stroke of this game but breaks.
+
+    Raises:
+        ValueError: an option that does not exist, or a value it cannot have.
+    """
+
+    def __init__(self, seed: int | None = None, **options: Any) -> None:
+        self._seed = seed
+        self._options = Options.of(options)
+        self._pace = Pace()
+        self.thoughts: list[Thought] = []
+
+    def game_started(self, view: View) -> None:
+        """Set up for this game's table and noise."""
+        geometry()
+        self._chance = generator(self._seed, view)
+        self._noise = USUAL_NOISE if view.noise.level is None else view.noise.level
+        self._rules = EightBall(view.table_model())
+        self._values = Values(Sight(self._rules.table, self._noise), self._noise)
+
+    def choose(self, view: View) -> Action:
+        """The best stroke, or the decision that leads to the best position."""
+        game = view.to_game()
+        if game.decisions:
+            return self._decision(game, view)
+        if game.phase is Phase.BREAK:
+            return self._break(game)
+        budget = self._budget(view)
+        thought = self._turn(game, budget).best()
+        budget.close()
+        self.thoughts.append(thought)
+        return thought.action
+
+    def _budget(self, view: View, parts: int = 1) -> Budget:
+        """What may be spent on one of `parts` equal parts of this turn."""
+        options = self._options
+        clock = time.process_time if options.cpu else time.perf_counter
+        left = None if view.seat is None else view.clocks[view.seat].seconds_left
+        seconds, shots = allowance(options, left, self.simulator.remaining)
+        return Budget(self._pace, shots // parts, seconds / parts, clock)
+
+    def _turn(self, game: Game, budget: Budget) -> Turn:
+        evaluator = Evaluator(
+            self._rules.table, self._values, self._noise, self._chance, self.simulator.simulate_batch, budget
+        )
+        return Turn(self._rules, game, evaluator, self._options)
+
+    def _break(self, game: Game) -> Action:
+        """The studied break."""
+        best = breaks.best_break(self._noise)
+        state = game.state.moved(0, best.place)
+        return Action(shot=best.stroke(self._rules.table, state), cue_ball=best.place)
+
+    def _decision(self, game: Game, view: View) -> Action:
+        """The decision after which this player stands best."""
+        worths = {each: self._worth_after(game, each, view) for each in game.decisions}
+        return Action(decision=max(worths, key=lambda each: worths[each]))
+
+    def _worth_after(self, game: Game, decision: Decision, view: View) -> float:
+        if decision is Decision.OPPONENT_RERACKS:
+            return 1.0 - breaks.BREAKING
+        ruling = self._rules.apply(game, Action(decision=decision), None, None)
+        if ruling.rerack:
+            return breaks.BREAKING
+        return self._turn(ruling.game, self._budget(view, len(game.decisions))).best().worth

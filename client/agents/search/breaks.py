@@ -1,0 +1,47 @@
+"""The break: found once by a study, not searched for at the table."""
+
+from dataclasses import dataclass
+
+from client.geometry import Point, azimuth
+from physics import Shot, Table, TableState, min_elevation
+
+
+@dataclass(frozen=True, slots=True)
+class Break:
+    """A break, described so that it can be played on any rack.
+
+    Attributes:
+        x, y: m, where the cue ball is put. v: m/s. aim: mm, how far beside the apex ball's centre, positive to the
+            shooter's left. a, b: mm, tip offsets.
+    """
+
+    x: float
+    y: float
+    v: float
+    aim: float
+    a: float
+    b: float
+
+    @property
+    def place(self) -> Point:
+        """Where the cue ball is put."""
+        return self.x, self.y
+
+    def stroke(self, table: Table, state: TableState) -> Shot:
+        """The stroke on this rack; `state` has the cue ball in its place."""
+        foot_x, foot_y = table.foot_spot
+        phi = azimuth(self.place, (foot_x + 1e-3 * self.aim, foot_y))
+        theta = min_elevation(table, state, phi, self.a, self.b)
+        return Shot(min(self.v, table.v_max), phi, theta + 0.5, self.a, self.b)
+
+
+BEST = {0.0: Break(x=0.227, y=1.70, v=6.62, aim=28.9, a=-9.87, b=13.9)}
+"""The best break by level of noise."""
+
+BREAKING = 0.69
+"""What a new rack is worth to the player who breaks it."""
+
+
+def best_break(noise: float) -> Break:
+    """The break studied for the level nearest to this one."""
+    return BEST[min(BEST, key=lambda level: abs(level - noise))]

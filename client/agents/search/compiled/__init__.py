@@ -1,0 +1,1 @@
+"""Compiled geometry; see `kernels`."""

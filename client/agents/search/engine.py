@@ -1,0 +1,54 @@
+"""Loading the compiled geometry at its first use, and tables as it takes them."""
+
+import functools
+import importlib
+import math
+import threading
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from physics import Table
+from physics.engine import cache_folder, digest_of
+from physics.engine import kernels as physics_kernels
+
+_LOADING = threading.Lock()
+SIDES = (1, 4)
+"""The pockets in the middle of the long cushions."""
+
+
+@functools.cache
+def geometry() -> Any:
+    """The module of compiled geometry; compiled once for a processor and kept beside the physics."""
+    physics_kernels()
+    with _LOADING:  # numba's setting below is the whole process's
+        return _load()
+
+
+@functools.cache
+def _load() -> Any:
+    import numba
+
+    folder, before = cache_folder(), numba.config.CACHE_DIR
+    own = "" if folder is None else str(folder / f"search-{digest_of(Path(__file__).parent / 'compiled')[:16]}")
+    try:
+        numba.config.CACHE_DIR = own
+        return importlib.import_module("client.agents.search.compiled.kernels")
+    finally:
+        numba.config.CACHE_DIR = before
+
+
+@functools.lru_cache(maxsize=16)
+def table_row(table: Table) -> NDArray[np.float64]:
+    """A table as the geometry takes it: see the places named at the top of the kernels."""
+    row = [table.width, table.length, table.ball_radius, table.nose_height, table.cue_length]
+    for pocket, (x, y) in enumerate(table.mouths.tolist()):
+        right, up = math.copysign(1.0, 0.5 * table.width - x), math.copysign(1.0, 0.5 * table.length - y)
+        if pocket in SIDES:
+            row += [x, y, right, 0.0, 0.5 * table.side_mouth]
+        else:
+            half = (table.corner_reach - table.ball_radius) / math.sqrt(2.0)
+            row += [x, y, right / math.sqrt(2.0), up / math.sqrt(2.0), half]
+    return np.array(row)

@@ -1,0 +1,78 @@
+"""Strokes under consideration, thousands at a time: plain arrays, no objects."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Groups = NDArray[np.int8]
+
+V, PHI, THETA, A, B = range(5)
+"""Columns of a stroke, as the physics takes them: m/s, deg, deg, mm, mm."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tables:
+    """Positions to shoot from.
+
+    Attributes:
+        positions: (s, 16, 2) m, the cue ball on the table.
+        group: (s,) int8, the shooter's group: -1 open, 0 solids, 1 stripes.
+    """
+
+    positions: Floats
+    group: Groups
+
+    def __len__(self) -> int:
+        return len(self.group)
+
+    def __getitem__(self, rows: NDArray[np.int64] | NDArray[np.bool_] | slice) -> "Tables":
+        return Tables(self.positions[rows], self.group[rows])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shots:
+    """Strokes with their calls.
+
+    Attributes:
+        tables: what they are played on. table: (k,) which of them.
+        strokes: (k, 5), columns v, phi, theta, a, b.
+        ball, pocket: (k,) the call; ball -1 is a safety.
+        margin: (k,) deg, half of the directions that pot the ball, as far as known; 0 where there is no straight pot.
+    """
+
+    tables: Tables
+    table: Integers
+    strokes: Floats
+    ball: Integers
+    pocket: Integers
+    margin: Floats
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+    def __getitem__(self, rows: NDArray[np.int64] | NDArray[np.bool_] | slice) -> "Shots":
+        return Shots(self.tables, *(getattr(self, name)[rows] for name in _ARRAYS))
+
+    def joined(self, other: "Shots") -> "Shots":
+        """These strokes and others on the same tables."""
+        return Shots(self.tables, *(np.concatenate((getattr(self, name), getattr(other, name))) for name in _ARRAYS))
+
+    def aimed(self, phi: Floats) -> "Shots":
+        """The same strokes in other directions (deg)."""
+        strokes = self.strokes.copy()
+        strokes[:, PHI] = phi
+        return replace(self, strokes=strokes)
+
+    def before(self) -> Floats:
+        """(k, 16, 2): the position each stroke is played from."""
+        return self.tables.positions[self.table]
+
+    def group(self) -> Groups:
+        """(k,): the shooter's group."""
+        return self.tables.group[self.table]
+
+
+_ARRAYS = ("table", "strokes", "ball", "pocket", "margin")

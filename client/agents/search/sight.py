@@ -1,0 +1,75 @@
+"""What the balls of many tables offer: straight pots and their chances, the elevation a stroke needs."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from client.agents.search import engine
+from client.agents.search.shots import THETA, Floats, Integers, Shots, Tables
+from physics import Table
+from referee.play.noise import SIGMA_B, SIGMA_PHI, SIGMA_THETA
+from referee.rules.verdicts import target_balls
+
+LEAST_NOISE = 0.1
+"""Level below which chances are not told apart: at noise 0 the widest margin is still the best."""
+SIGMAS_FREE = 2.5
+"""Standard deviations of direction and tip height that must leave the cue free, so that miscues are rare."""
+HIGHEST = 45.0
+"""Degrees: a cue raised further makes the cue ball's path a guess."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pots:
+    """Straight pots, (s, m), the likeliest of each table first; chance 0 where a table has fewer.
+
+    Attributes:
+        ball, pocket: the call. phi: deg. margin: deg, half of the directions that pot it. chance: under the noise.
+    """
+
+    ball: Integers
+    pocket: Integers
+    phi: Floats
+    margin: Floats
+    chance: Floats
+
+
+class Sight:
+    """Plane geometry on one table under one level of noise."""
+
+    def __init__(self, table: Table, noise: float) -> None:
+        self._kernels = engine.geometry()
+        self._row = engine.table_row(table)
+        self._theta_max = min(HIGHEST, table.theta_max)
+        self._slack = SIGMAS_FREE * noise
+        self.sigma = float(np.radians(SIGMA_PHI) * max(noise, LEAST_NOISE))
+
+    def survey(self, positions: Floats, hand: NDArray[np.bool_], kitchen: float = 0.0) -> Floats:
+        """(n, 2, 5): what each table offers to either group; the columns are named in the kernels."""
+        found = np.empty((len(positions), 2, 5))
+        self._kernels.survey(self._row, np.ascontiguousarray(positions), self.sigma, hand, kitchen, found)
+        return found
+
+    def pots(self, tables: Tables, most: int, targets: NDArray[np.bool_] | None = None) -> Pots:
+        """The best straight pots of each table; `targets` (s, 16) if not every ball that may be called will do."""
+        shape = (len(tables), most)
+        pots = Pots(
+            np.zeros(shape, np.int64), np.zeros(shape, np.int64), np.zeros(shape), np.zeros(shape), np.zeros(shape)
+        )
+        if targets is None:
+            targets = target_balls(tables.positions, tables.group)
+        found = (pots.ball, pots.pocket, pots.phi, pots.margin, pots.chance)
+        self._kernels.list_pots(self._row, np.ascontiguousarray(tables.positions), targets, self.sigma, *found)
+        return pots
+
+    def raised(self, shots: Shots) -> Shots:
+        """The strokes with the cue raised as far as it has to be; those that cannot be played are left out."""
+        strokes = shots.strokes.copy()
+        _, phi, _, a, b = strokes.T
+        theta = np.empty(len(shots))
+        columns = (phi.copy(), a.copy(), b - self._slack * SIGMA_B)
+        positions = np.ascontiguousarray(shots.tables.positions)
+        aside = self._slack * SIGMA_PHI
+        self._kernels.elevations(self._row, positions, shots.table, *columns, aside, theta)
+        strokes[:, THETA] = theta + self._slack * SIGMA_THETA
+        return replace(shots, strokes=strokes)[strokes[:, THETA] <= self._theta_max]

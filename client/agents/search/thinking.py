@@ -1,0 +1,208 @@
+"""One turn: gather strokes, judge them ever more carefully, look ahead from the best, until the budget is spent."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from client.agents.search.evaluate import Evaluator, Outcomes
+from client.agents.search.lookahead import COST, correction
+from client.agents.search.options import Options
+from client.agents.search.placement import best_places, places
+from client.agents.search.pots import in_all_ways
+from client.agents.search.refine import centred
+from client.agents.search.shots import Floats, Shots, Tables
+from client.agents.search.sweep import sweep
+from physics import Shot, TableState, min_elevation
+from referee import SAFETY, Action, Call, CueBallArea, EightBall, Game, Group
+from referee.rules.verdicts import OPEN, SAFETY_CALL, target_balls
+
+AIMS = 7
+"""Directions tried to find the middle of a pot."""
+SCREENING = 6
+"""Noisy copies of every stroke."""
+NARROWING = ((0.25, 10), (0.3, 24), (0.4, 48))
+"""Then so large a share of them is kept, and played so many times more; and again."""
+POT_SHARE = 0.35
+"""Of the budget, for straight pots before any looking ahead."""
+FULL = 8000
+"""Shots in the budget from which all those copies are played; below it fewer."""
+FINALISTS = 8
+PLAIN = 0.12
+"""A pot that is worth so much more than a safety is played without considering anything else."""
+FREE, HARD = 0.5, 4.0
+"""Degrees above the least elevation, and m/s, of a stroke for want of any other."""
+GROUPS = {Group.SOLIDS: 0, Group.STRIPES: 1, None: OPEN}
+
+
+@dataclass(frozen=True, slots=True)
+class Thought:
+    """A stroke that was chosen.
+
+    Attributes:
+        action: what to do. worth: the chance to win that it is reckoned to leave.
+        simulated: shots it took. considered: strokes that were looked at under noise.
+    """
+
+    action: Action
+    worth: float
+    simulated: int
+    considered: int
+
+
+@dataclass(slots=True)
+class Finalists:
+    """The strokes that are left, and what is known of them."""
+
+    shots: Shots
+    outcomes: Outcomes
+    added: Floats
+    """Sum of corrections by looking ahead, each times how many clusters it rests on."""
+    looked: Floats
+    """Sum of those numbers of clusters."""
+
+    @property
+    def worth(self) -> Floats:
+        """What each is worth, as far as known."""
+        found: Floats = self.outcomes.mean() + np.divide(
+            self.added, self.looked, out=np.zeros_like(self.added), where=self.looked > 0.0
+        )
+        return found
+
+
+class Turn:
+    """Everything that depends on how the game stands."""
+
+    def __init__(self, rules: EightBall, game: Game, evaluator: Evaluator, options: Options) -> None:
+        self._rules, self._game, self._evaluator, self._options = rules, game, evaluator, options
+        self._group = GROUPS[game.group_of(game.turn)]
+        self._area = game.cue_ball_in_hand
+        self._kitchen = self._area is CueBallArea.KITCHEN
+        self._considered = 0
+
+    def best(self) -> Thought:
+        """The best stroke that the budget finds."""
+        tables = self._tables()
+        found = self._pots(tables)
+        plain = float(self._evaluator.values.without_pot(tables[:1])[0]) + PLAIN
+        if self._options.safeties and (found is None or found.worth.max() < plain):
+            found = _together(found, self._others(tables))
+        if found is None:
+            return self._anything(tables)
+        if self._options.lookahead:
+            found = self._looked_ahead(found)
+        best = int(found.worth.argmax())
+        action, simulated = self._action(found.shots, best), self._evaluator.budget.simulated
+        return Thought(action, float(found.worth[best]), simulated, self._considered)
+
+    def _tables(self) -> Tables:
+        """Where to play from: the table as it lies, or with the cue ball in many places."""
+        positions = self._game.state.positions
+        if self._area is None:
+            return Tables(positions[None].copy(), np.array([self._group], np.int8))
+        table, sight = self._rules.table, self._evaluator.values.sight
+        base = positions.copy()
+        base[0] = np.nan
+        targets = target_balls(base[None], np.array([self._group], np.int8))[0]
+        if self._kitchen:  # R38: no ball behind the string first
+            targets &= base[:, 1] <= table.head_string
+        points = places(table, base, targets, self._kitchen)
+        most = int(np.clip(self._evaluator.budget.total / 1500, 6, 40))
+        return best_places(sight, base, self._group, targets, points, most)
+
+    def _pots(self, tables: Tables) -> Finalists | None:
+        """The best straight pots."""
+        budget, sight = self._evaluator.budget, self._evaluator.values.sight
+        pots = int(np.clip(budget.total / 2500, 3, 10)) if len(tables) == 1 else 2
+        listed = sight.pots(tables, pots)
+        there = max(1, int((listed.chance > 0.0).sum()))
+        ways = int(np.clip(POT_SHARE * budget.total / (AIMS + SCREENING) / there, 4, 100)) if self._options.ways else 2
+        shots = sight.raised(in_all_ways(tables, listed, ways))
+        return self._narrowed(centred(self._evaluator, shots, AIMS)) if len(shots) else None
+
+    def _others(self, tables: Tables) -> Finalists | None:
+        """The best of the strokes that are no straight pots."""
+        budget = self._evaluator.budget
+        targets = int(target_balls(tables.positions[:1], tables.group[:1]).sum())
+        each = int(np.clip(0.2 * budget.total / max(1, targets) / 12, 7, 41))
+        shots = sweep(self._evaluator, tables, each)
+        if not len(shots):
+            return None
+        plain = self._evaluator.as_meant(shots, self._kitchen).mean()
+        most = int(np.clip(0.15 * budget.total / SCREENING, 24, 400))
+        return self._narrowed(shots[np.argsort(-plain, kind="stable")[:most]])
+
+    def _narrowed(self, shots: Shots) -> Finalists | None:
+        """The best of the strokes, judged in rounds: fewer and fewer, more and more often."""
+        if not len(shots):
+            return None
+        self._considered += len(shots)
+        outcomes = self._evaluator.noisy(shots, SCREENING, self._kitchen)
+        for share, copies in NARROWING:
+            keep = max(FINALISTS, int(share * len(shots)))
+            order = np.argsort(-outcomes.mean(), kind="stable")[:keep]
+            shots, outcomes = shots[order], outcomes[order]
+            if self._evaluator.noise > 0.0:
+                copies = max(2, round(copies * np.clip(self._evaluator.budget.total / FULL, 0.2, 1.0)))
+                outcomes = outcomes.more(self._evaluator.noisy(shots, copies, self._kitchen))
+        order = np.argsort(-outcomes.mean(), kind="stable")[:FINALISTS]
+        nothing = np.zeros(len(order))
+        return Finalists(shots[order], outcomes[order], nothing, nothing.copy())
+
+    def _looked_ahead(self, found: Finalists) -> Finalists:
+        """Corrections by looking ahead, of all finalists and then of the best of them, until the budget is spent."""
+        budget = self._evaluator.budget
+        clusters, keep = 3, FINALISTS
+        while len(found.shots) > 1:
+            affordable = (1.0 - budget.spent) * budget.total / COST
+            rows = np.argsort(-found.worth, kind="stable")[:keep]
+            clusters = min(clusters, int(affordable / len(rows)))
+            if clusters < 1:
+                return found
+            outcomes = found.outcomes[rows]
+            if found.looked[rows].any() and self._evaluator.noise > 0.0:
+                outcomes = self._evaluator.noisy(found.shots[rows], 24, self._kitchen)
+            found.added[rows] += clusters * correction(self._evaluator, outcomes, clusters)
+            found.looked[rows] += clusters
+            if self._evaluator.noise == 0.0:
+                return found
+            clusters, keep = min(2 * clusters, 16), max(2, keep // 2)
+        return found
+
+    def _anything(self, tables: Tables) -> Thought:
+        """A safety in the first direction in which the cue is free: nothing else was found."""
+        table, state = self._rules.table, TableState.from_positions(_placed(tables.positions[0]))
+        for phi in range(360):
+            theta = min_elevation(table, state, float(phi)) + FREE
+            if theta <= table.theta_max:  # False for NaN: blocked at every elevation
+                nothing = np.array([SAFETY_CALL])
+                strokes = np.array([[HARD, float(phi), theta, 0.0, 0.0]])
+                shots = Shots(tables, np.zeros(1, np.int64), strokes, nothing, nothing, np.zeros(1))
+                return Thought(self._action(shots, 0), 0.0, self._evaluator.budget.simulated, 0)
+        raise RuntimeError(f"no direction is free for the cue: {state!r}")
+
+    def _action(self, shots: Shots, row: int) -> Action:
+        """A stroke as the referee takes it."""
+        ball, pocket = int(shots.ball[row]), int(shots.pocket[row])
+        x, y = shots.before()[row, 0].tolist()
+        return Action(
+            shot=Shot(*shots.strokes[row].tolist()),
+            call=SAFETY if ball == SAFETY_CALL else Call(ball, pocket),
+            cue_ball=None if self._area is None else (x, y),
+        )
+
+
+def _together(first: Finalists | None, second: Finalists | None) -> Finalists | None:
+    """Two lists of finalists as one; all of them were played equally often."""
+    if first is None or second is None:
+        return first or second
+    return Finalists(
+        first.shots.joined(second.shots),
+        first.outcomes.joined(second.outcomes),
+        np.concatenate((first.added, second.added)),
+        np.concatenate((first.looked, second.looked)),
+    )
+
+
+def _placed(positions: Floats) -> dict[int, tuple[float, float]]:
+    """Positions by ball, the absent left out."""
+    return {ball: (float(x), float(y)) for ball, (x, y) in enumerate(positions) if not np.isnan(x)}

@@ -1,0 +1,297 @@
+"""`search` on known positions and over whole games (docs/agents.md)."""
+
+import math
+
+import numpy as np
+import pytest
+
+import client
+import physics
+from client.agents.search import SearchAgent
+from client.agents.search.budget import Budget, Pace, allowance
+from client.agents.search.clusters import representatives
+from client.agents.search.options import Options
+from client.agents.search.race import race
+from client.agents.search.refine import longest_run
+from client.agents.search.shots import Tables
+from client.agents.search.sight import Sight
+from client.errors import AgentNotFound
+from referee import Action, CueBallArea, Decision, EightBall, EndReason, Game, Group, Phase
+from referee.play import MatchSeed, NoiseModel
+from referee.play.local import Watch, play_match
+from referee.wire import ClockView, GameTerms, NoiseView, View
+
+TABLE = physics.Table.olympiad()
+RULES = EightBall(TABLE)
+FEW = 2500
+"""Simulated shots a stroke, for tests."""
+
+
+def view_of(balls, noise=1.0, seconds=None, **fields):
+    """What seat 0 sees with these balls on the table."""
+    state = physics.TableState.from_positions(balls)
+    game = Game(state, fields.pop("phase", Phase.PLAY), 0, 0, **({"groups": SOLIDS} | fields))
+    terms = GameTerms(
+        game="g", match="m", number=0, games=1, players=("search", "x"), rules="eight_ball", table=TABLE.to_dict(),
+        noise=NoiseView(told=True, level=noise), dry_visits_limit=24, replays_limit=2, strokes_limit=400,
+        commitment="0" * 64,
+    )  # fmt: skip
+    clocks = tuple(ClockView(seconds_left=seconds, running=seat == 0) for seat in (0, 1))
+    return View.of(terms, game, seat=0, version=1, clocks=clocks, score=(0.0, 0.0), strokes_since=())
+
+
+SOLIDS = (Group.SOLIDS, Group.STRIPES)
+
+
+def choice(balls, noise=1.0, shots=FEW, **fields):
+    """What `search` does with these balls, its thought with it."""
+    view = view_of(balls, noise, **fields)
+    agent = SearchAgent(seed=1, shots=shots)
+    agent.game_started(view)
+    action = agent.choose(view)
+    assert RULES.check(view.to_game(), action) == ()
+    return action, agent.thoughts[-1] if agent.thoughts else None
+
+
+def played(balls, action):
+    """The result of the action without noise."""
+    state = physics.TableState.from_positions(balls)
+    state = state if action.cue_ball is None else state.moved(0, action.cue_ball)
+    return physics.simulate(TABLE, state, action.shot)
+
+
+def test_a_hanging_ball_is_potted():
+    balls = {0: (0.5, 1.0), 3: (0.09, 0.09), 12: (0.9, 1.8), 8: (0.7, 1.6)}
+    action, thought = choice(balls)
+    assert (action.call.ball, action.call.pocket) == (3, 0)
+    assert played(balls, action).facts.pocket[3] == 0
+    assert thought.worth > 0.8
+
+
+def test_on_the_8_it_finishes():
+    balls = {0: (0.5, 0.9), 8: (0.3, 0.5), 12: (0.9, 1.8)}
+    action, thought = choice(balls, noise=0.0)
+    assert action.call.ball == 8
+    assert thought.worth == 1.0
+    assert played(balls, action).facts.pocket[8] == action.call.pocket
+
+
+def test_hidden_behind_other_balls_it_strikes_its_own_all_the_same():
+    """Snookered on its only ball: a kick, or a safety that fouls nobody. Without noise it must get there."""
+    balls = {0: (0.2, 1.0), 3: (0.9, 1.0), 9: (0.35, 0.97), 10: (0.35, 1.03), 11: (0.36, 0.91), 8: (0.36, 1.09)}
+    action, _ = choice(balls, noise=0.0, shots=20_000)
+    facts = played(balls, action).facts
+    assert facts.struck_first == (3,)
+
+
+def test_without_a_pot_it_plays_safe():
+    """The 3 is frozen behind the 9 and 10 in the middle of the short cushion; the opponent's balls lie open."""
+    balls = {0: (0.2, 2.0), 3: (0.558, 0.03), 9: (0.52, 0.078), 10: (0.596, 0.078), 11: (0.558, 0.125), 8: (0.9, 1.1)}
+    action, _ = choice(balls, shots=10_000)
+    assert action.is_safety
+
+
+@pytest.mark.parametrize("area", [CueBallArea.ANYWHERE, CueBallArea.KITCHEN])
+def test_ball_in_hand_is_put_where_a_pot_is_easy(area):
+    balls = {3: (0.3, 1.3), 8: (0.7, 1.2), 12: (0.9, 0.6)}
+    action, thought = choice(balls, cue_ball_in_hand=area)
+    assert action.call.ball == 3
+    assert thought.worth > 0.8
+    assert played({0: (0.5, 1.8), **balls}, action).facts.pocket[3] == action.call.pocket
+
+
+def test_the_break_is_the_studied_one():
+    state = physics.rack(TABLE, "eight_ball", seed=3)
+    balls = {ball: state.position(ball) for ball in state.balls}
+    action, _ = choice(balls, phase=Phase.BREAK, groups=None, cue_ball_in_hand=CueBallArea.KITCHEN)
+    assert action.call is None
+    assert played(balls, action).facts.struck_first
+
+
+def test_decisions_go_to_the_better_table():
+    """An easy pot: the table is accepted. Everything hidden: the balls are racked again."""
+    decisions = (Decision.ACCEPT_TABLE, Decision.RERACK_AND_BREAK)
+    easy = {0: (0.5, 1.0), 3: (0.15, 0.15), 8: (0.2, 1.2)}
+    fields = {"phase": Phase.DECISION, "decisions": decisions, "choice": "R12"}
+    assert choice(easy, **fields)[0].decision is Decision.ACCEPT_TABLE
+    hard = {0: (0.2, 2.0), 3: (0.558, 0.03), 9: (0.52, 0.078), 10: (0.596, 0.078), 11: (0.558, 0.125), 8: (0.9, 1.1)}
+    assert choice(hard, **fields)[0].decision is Decision.RERACK_AND_BREAK
+
+
+def test_a_fixed_number_of_shots_repeats_the_choice():
+    balls = {0: (0.5, 1.0), 1: (0.3, 0.3), 2: (0.8, 0.5), 9: (0.7, 1.7), 8: (0.2, 1.8)}
+    (first, one), (second, other) = choice(balls), choice(balls)
+    assert first == second
+    assert one == other
+
+
+@pytest.mark.parametrize("shots", [500, 5_000, 50_000])
+def test_it_keeps_to_its_number_of_shots(shots):
+    """Up to the floor of a first look, and a last round that was begun."""
+    balls = {0: (0.5, 1.0), 1: (0.3, 0.3), 2: (0.8, 0.5), 5: (1.0, 1.0), 9: (0.7, 1.7), 8: (0.2, 1.8)}
+    _, thought = choice(balls, shots=shots)
+    assert thought.simulated <= 1.25 * shots + 1500
+
+
+@pytest.mark.parametrize("noise", [0.0, 1.0, 5.0])
+@pytest.mark.parametrize("opponent", ["random", "greedy"])
+def test_no_action_is_refused(opponent, noise):
+    """Whole games, every phase of them."""
+    refused = []
+    agents = [client.load(f"search:shots={FEW}", seed=1), client.load(opponent, seed=1)]
+
+    def seats(_number, _budgets):
+        return tuple(_chooser(factory()) for factory in agents)
+
+    watch = Watch(on_refusal=refused.append)
+    (game,) = play_match(RULES, seats, MatchSeed.of(5), 1, NoiseModel(noise), watch=watch)
+    assert game.outcome.reason not in (EndReason.FORFEIT, EndReason.CONCESSION)
+    assert refused == []
+
+
+def _chooser(agent):
+    started = []
+
+    def choose(view):
+        if not started:
+            agent.game_started(view)
+            started.append(view)
+        return agent.choose(view)
+
+    return choose
+
+
+class Ticking:
+    """A clock that a simulated shot moves on."""
+
+    def __init__(self):
+        self.now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+def test_seconds_left_are_never_used_up():
+    """However many strokes a game takes, a share of what is left is always left."""
+    left = 30.0
+    for _ in range(200):
+        seconds, _ = allowance(Options(seconds=10.0), left, None)
+        left -= seconds
+        assert left > 0.0
+
+
+def test_shots_left_are_shared_out():
+    left = 100_000
+    for _ in range(100):
+        _, shots = allowance(Options(), None, left)
+        assert 1 <= shots <= max(1, left)
+        left -= shots
+        if not left:
+            break
+
+
+def test_a_budget_of_seconds_learns_how_far_it_goes():
+    pace, clock = Pace(), Ticking()
+    for _ in range(50):
+        budget = Budget(pace, 0, 0.5, clock)
+        while budget.spent < 1.0:
+            budget.charge(1000)
+            clock.now += 0.01
+        budget.close()
+    assert pace.per_second == pytest.approx(100_000, rel=0.02)
+    assert Budget(pace, 0, 0.5, clock).total == pytest.approx(50_000, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["search:speed=1", "search:seconds=", "search:seconds=-1", "search:shots=0.5", "search:cpu=1", "greedy:seconds=1"],
+)
+def test_a_bad_option_is_named(name):
+    with pytest.raises(AgentNotFound, match=name):
+        client.load(name)
+
+
+def test_options_reach_the_agent():
+    agent = client.load("search:seconds=0.25,lookahead=off", seed=3)()
+    assert agent._options == Options(seconds=0.25, lookahead=False)
+
+
+def test_the_race_is_a_chance_and_fewer_balls_are_better():
+    values = race(1.0)
+    grid = np.arange(1.0, 9.0)
+    seen = np.ones(8, bool)
+    worth = np.array([values.shooter(grid, np.full(8, other), np.full(8, 0.8), seen) for other in grid])
+    assert ((worth >= 0.0) & (worth <= 1.0)).all()
+    assert (np.diff(worth, axis=1) < 0.0).all()  # more to make
+    assert (np.diff(worth, axis=0) > 0.0).all()  # the opponent has more to make
+    better = values.shooter(grid, grid, np.full(8, 0.95), seen)
+    assert (better >= values.shooter(grid, grid, np.full(8, 0.8), seen)).all()
+
+
+def test_pots_agree_with_plain_geometry():
+    """Direction and margin are those of `client.geometry.pots`, which knows nothing of balls beside the path."""
+    balls = {0: (0.5, 1.2), 2: (0.8, 0.5), 3: (0.3, 0.9)}
+    state = physics.TableState.from_positions(balls)
+    known = {(one.ball, one.pocket): one for one in client.geometry.pots(TABLE, state, (2, 3))}
+    tables = Tables(state.positions[None].copy(), np.array([0], np.int8))
+    pots = Sight(TABLE, 1.0).pots(tables, 6)
+    found = [place for place in range(6) if pots.chance[0, place] > 0.01]
+    assert found
+    for place in found:
+        one = known[int(pots.ball[0, place]), int(pots.pocket[0, place])]
+        assert pots.phi[0, place] == pytest.approx(one.phi, abs=1e-6)
+        assert pots.margin[0, place] == pytest.approx(one.tolerance, rel=0.1)
+
+
+def test_the_cue_is_raised_no_less_than_it_has_to_be():
+    """Against `physics.min_elevation`, at every place where the cue may be raised so far."""
+    chance = np.random.default_rng(7)
+    around = {ball: (0.5 + 0.08 * math.cos(ball), 1.0 + 0.08 * math.sin(ball)) for ball in (1, 3, 5)}
+    state = physics.TableState.from_positions({0: (0.5, 1.0), 9: (0.1, 0.1), **around})
+    sight, equal = Sight(TABLE, 0.0), 0
+    for phi, a, b in chance.uniform((0.0, -12.0, -12.0), (360.0, 12.0, 12.0), (300, 3)):
+        shots = one_shot(state, phi, a, b)
+        raised = sight.raised(shots)
+        needed = physics.min_elevation(TABLE, state, phi, a, b)
+        if len(raised):
+            theta = raised.strokes[0, 2]
+            assert theta >= needed - 1e-6
+            assert physics.check(TABLE, state, physics.Shot(2.0, phi, theta + 1e-6, a, b)) is None
+            equal += theta == pytest.approx(needed, abs=1e-3)
+    assert equal > 200  # more only where a low tip could pass under a ball's widest part
+
+
+def one_shot(state, phi, a, b):
+    from client.agents.search.shots import Shots
+
+    nothing = np.array([-1])
+    tables = Tables(state.positions[None].copy(), np.array([0], np.int8))
+    return Shots(tables, np.array([0]), np.array([[2.0, phi, 0.0, a, b]]), nothing, nothing, np.zeros(1))
+
+
+def test_clusters_stand_for_their_tables():
+    chance = np.random.default_rng(2)
+    centres = np.array([[0.2, 0.3], [0.9, 0.4], [0.5, 1.8]])
+    positions = np.full((60, 16, 2), np.nan)
+    positions[:, 8] = (0.5, 0.5)
+    positions[:, 0] = np.repeat(centres, 20, axis=0) + chance.normal(0.0, 0.01, (60, 2))
+    chosen, nearest = representatives(positions, 3)
+    assert sorted(chosen // 20) == [0, 1, 2]
+    assert all(len(set(nearest[20 * kind : 20 * kind + 20])) == 1 for kind in range(3))
+
+
+def test_the_longest_run_of_directions():
+    made = np.array([[0, 1, 1, 0, 1], [1, 1, 1, 1, 1], [0, 0, 0, 0, 1], [0, 0, 0, 0, 0]], bool)
+    first, last = longest_run(made)
+    assert first.tolist()[:3] == [1, 0, 4]
+    assert last.tolist()[:3] == [2, 4, 4]
+
+
+def test_it_is_far_ahead_of_random():
+    match = client.play(f"search:shots={FEW}", "random", games=4, seed=4)
+    assert match.score[0] >= 3.0
+
+
+def test_actions_are_values_of_the_referee():
+    action, _ = choice({0: (0.5, 1.0), 3: (0.09, 0.09), 8: (0.7, 1.6)})
+    assert Action.from_dict(action.to_dict()) == action
