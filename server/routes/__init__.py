@@ -4,7 +4,7 @@ from typing import Final
 
 from fastapi import APIRouter
 
-from server.routes import agents, games, health, matches, physics, streams, turns
+from server.routes import agents, games, health, matches, page, physics, streams, turns
 
 ROUTERS: Final[tuple[APIRouter, ...]] = (
     agents.router,
@@ -14,4 +14,5 @@ ROUTERS: Final[tuple[APIRouter, ...]] = (
     streams.router,
     physics.router,
     health.router,
+    page.router,
 )

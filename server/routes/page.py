@@ -1,0 +1,85 @@
+"""The spectator's page: its files, held in memory, with the headers that keep everything else out."""
+
+import hashlib
+import json
+import mimetypes
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Final
+
+from fastapi import APIRouter, Request, Response
+
+from referee.rules.catalogue import RULES
+from server.errors import NotFound
+
+router = APIRouter(include_in_schema=False)
+
+HOME: Final = "index.html"
+RULES_FILE: Final = "rules.json"
+TYPES: Final = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+}
+POLICY: Final = (
+    *("default-src 'none'", "script-src 'self'", "style-src 'self'", "img-src 'self'", "connect-src 'self'"),
+    *("base-uri 'none'", "form-action 'none'", "frame-ancestors 'none'"),
+    *("require-trusted-types-for 'script'", "trusted-types 'none'"),
+)
+"""Nothing is loaded from anywhere else, no markup is made from text, nobody puts the page in a frame."""
+HEADERS: Final = {
+    "Content-Security-Policy": "; ".join(POLICY),
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cache-Control": "no-cache",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class File:
+    """A file of the page; `etag` changes with its content."""
+
+    content: bytes
+    media_type: str
+    etag: str
+
+    @classmethod
+    def of(cls, name: str, content: bytes) -> "File":
+        """A file by its name, which tells its type."""
+        suffix = name[name.rindex(".") :]
+        media_type = TYPES.get(suffix) or mimetypes.types_map[suffix]
+        return cls(content, media_type, f'"{hashlib.sha256(content).hexdigest()[:16]}"')
+
+
+@cache
+def page_files() -> dict[str, File]:
+    """All files of `server/web`, by name, and the referee's rules."""
+    found = [one for one in files("server").joinpath("web").iterdir() if one.is_file()]
+    contents = {one.name: one.read_bytes() for one in found}
+    contents[RULES_FILE] = json.dumps(dict(RULES)).encode()
+    return {name: File.of(name, content) for name, content in contents.items()}
+
+
+@router.get("/")
+def home(request: Request) -> Response:
+    """The page."""
+    return _served(request, HOME)
+
+
+@router.get("/web/{name}")
+def part(name: str, request: Request) -> Response:
+    """A script, the style sheet, the rules in words."""
+    return _served(request, name)
+
+
+def _served(request: Request, name: str) -> Response:
+    file = page_files().get(name)
+    if file is None:
+        raise NotFound(f"the page has no file {name!r}")
+    headers = HEADERS | {"ETag": file.etag}
+    if request.headers.get("if-none-match") == file.etag:
+        return Response(status_code=304, headers=headers)
+    return Response(file.content, media_type=file.media_type, headers=headers)

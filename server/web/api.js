@@ -1,0 +1,86 @@
+/** Requests to the server this page came from, and the token of whoever signed in, kept for the tab. */
+
+const TOKEN = "pooliad.token";
+const AGENT = "pooliad.agent";
+
+/** A request the server did not carry out; `problem` is its RFC 9457 body. */
+export class ProblemError extends Error {
+  /** @param {number} status @param {Record<string, any>} problem */
+  constructor(status, problem) {
+    super(problem.detail || problem.title || `the server answered ${status}`);
+    this.status = status;
+    this.problem = problem;
+  }
+}
+
+/** @typedef {{id: string, name: string}} Identity */
+
+/** @returns {Identity | null} who is signed in */
+export function identity() {
+  const kept = sessionStorage.getItem(AGENT);
+  return kept && token() ? JSON.parse(kept) : null;
+}
+
+/** @returns {string | null} */
+export function token() {
+  return sessionStorage.getItem(TOKEN);
+}
+
+/** @param {string} newToken @param {Identity} agent */
+export function signIn(newToken, agent) {
+  sessionStorage.setItem(TOKEN, newToken);
+  sessionStorage.setItem(AGENT, JSON.stringify(agent));
+}
+
+export function signOut() {
+  sessionStorage.removeItem(TOKEN);
+  sessionStorage.removeItem(AGENT);
+}
+
+/**
+ * Send a request; the answer's JSON, or null when it has none.
+ * @param {string} method
+ * @param {string} path
+ * @param {{body?: unknown, headers?: Record<string, string>, signal?: AbortSignal}} [options]
+ * @returns {Promise<any>}
+ */
+export async function call(method, path, { body, headers = {}, signal } = {}) {
+  const sent = { Accept: "application/json", ...headers };
+  if (token()) sent.Authorization = `Bearer ${token()}`;
+  if (body !== undefined) sent["Content-Type"] = "application/json";
+  const response = await fetch(path, { method, headers: sent, body: body === undefined ? undefined : JSON.stringify(body), signal });
+  const text = await response.text();
+  const read = text ? parsed(text) : null;
+  if (!response.ok) throw new ProblemError(response.status, read || {});
+  return read;
+}
+
+/** @param {string} path @param {AbortSignal} [signal] */
+export function get(path, signal) {
+  return call("GET", path, { signal });
+}
+
+/**
+ * A request that changes something: carried out once, however often it is sent.
+ * @param {string} path @param {unknown} [body] @param {{version?: number, key?: string}} [options]
+ */
+export function command(path, body, { version, key = newKey() } = {}) {
+  const headers = { "Idempotency-Key": key };
+  if (version !== undefined) headers["If-Match"] = `"${version}"`;
+  return call("POST", path, { body, headers });
+}
+
+/** A name for a request. (`crypto.randomUUID` is missing on pages without TLS.) */
+export function newKey() {
+  const bytes = crypto.getRandomValues(new Uint8Array(16));
+  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+}
+
+/** @param {string} text */
+function parsed(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return { detail: text.slice(0, 200) };
+  }
+}

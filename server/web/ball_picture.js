@@ -1,0 +1,133 @@
+/** A ball as it is seen from above: colour, stripe and number turned with it, pixel by pixel. */
+
+import { intoBall } from "./orientation.js";
+
+const COLOURS = [
+  [244, 240, 228], [240, 190, 30], [30, 70, 170], [200, 40, 40], [95, 45, 130],
+  [230, 110, 30], [20, 110, 70], [120, 30, 40], [24, 24, 26],
+];
+const IVORY = [244, 240, 228];
+const RED = [190, 30, 40];
+
+/** Half the stripe's height and the number's disc, in radii. */
+const STRIPE = 0.52;
+const DISC = 0.5;
+const DOT = 0.965;
+const GLYPH = 48;
+
+/** The plain colour of a ball. @param {number} ball @returns {number[]} red, green, blue */
+export function colourOf(ball) {
+  return COLOURS[ball > 8 ? ball - 8 : ball];
+}
+
+/** @param {number} ball */
+export function cssColour(ball) {
+  return `rgb(${colourOf(ball).join(" ")})`;
+}
+
+/** @param {number} ball */
+export function isStriped(ball) {
+  return ball > 8;
+}
+
+export class BallPictures {
+  constructor() {
+    /** @type {Map<number, Uint8ClampedArray>} the numbers, as coverage of a square */
+    this.glyphs = new Map();
+    /** @type {Map<number, {canvas: HTMLCanvasElement, key: string}>} */
+    this.pictures = new Map();
+  }
+
+  /**
+   * The picture of a ball; the same canvas again while nothing has changed.
+   * @param {number} ball @param {import("./orientation.js").Quaternion} turned
+   * @param {number} radius device pixels @param {{right: number[], up: number[]}} axes of the projection
+   * @returns {HTMLCanvasElement}
+   */
+  picture(ball, turned, radius, axes) {
+    const size = 2 * Math.ceil(radius) + 2;
+    const key = `${size} ${axes.right} ${turned.map((part) => part.toFixed(3))}`;
+    let kept = this.pictures.get(ball);
+    if (!kept) {
+      kept = { canvas: document.createElement("canvas"), key: "" };
+      this.pictures.set(ball, kept);
+    }
+    if (kept.key !== key) {
+      kept.key = key;
+      if (kept.canvas.width !== size) kept.canvas.width = kept.canvas.height = size;
+      this.paint(kept.canvas, ball, turned, radius, axes);
+    }
+    return kept.canvas;
+  }
+
+  paint(canvas, ball, turned, radius, axes) {
+    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    const size = canvas.width;
+    const image = context.createImageData(size, size);
+    const matrix = intoBall(turned);
+    const middle = (size - 1) / 2;
+    for (let row = 0; row < size; row++) {
+      for (let column = 0; column < size; column++) {
+        const right = (column - middle) / radius;
+        const up = (middle - row) / radius;
+        const distance = Math.sqrt(right * right + up * up);
+        const cover = Math.min(1, Math.max(0, (1 - distance) * radius + 0.5));
+        if (cover === 0) continue;
+        const z = Math.sqrt(Math.max(0, 1 - distance * distance));
+        const x = right * axes.right[0] + up * axes.up[0];
+        const y = right * axes.right[1] + up * axes.up[1];
+        const colour = this.colourAt(
+          ball,
+          matrix[0] * x + matrix[1] * y + matrix[2] * z,
+          matrix[3] * x + matrix[4] * y + matrix[5] * z,
+          matrix[6] * x + matrix[7] * y + matrix[8] * z,
+        );
+        shade(image.data, 4 * (row * size + column), colour, z, right, up, cover);
+      }
+    }
+    context.putImageData(image, 0, 0);
+  }
+
+  /** The colour of a point of the ball's surface, in the ball's own axes. */
+  colourAt(ball, x, y, z) {
+    if (ball === 0) return Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > DOT ? RED : IVORY;
+    const base = isStriped(ball) && Math.abs(z) > STRIPE ? IVORY : colourOf(ball);
+    if (y * y + z * z > DISC * DISC || Math.abs(x) < 0.5) return base;
+    const ink = this.glyph(ball)[pixel(x > 0 ? y : -y, z)] / 255;
+    return ink > 0.5 ? COLOURS[8] : IVORY;
+  }
+
+  /** @param {number} ball @returns {Uint8ClampedArray} coverage, row by row */
+  glyph(ball) {
+    const known = this.glyphs.get(ball);
+    if (known) return known;
+    const canvas = document.createElement("canvas");
+    canvas.width = canvas.height = GLYPH;
+    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));
+    context.font = `700 ${ball > 9 ? 30 : 36}px sans-serif`;
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    context.fillText(String(ball), GLYPH / 2, GLYPH / 2 + 2);
+    const data = context.getImageData(0, 0, GLYPH, GLYPH).data;
+    const coverage = data.filter((_, place) => place % 4 === 3);
+    this.glyphs.set(ball, coverage);
+    return coverage;
+  }
+}
+
+/** The glyph's pixel for a place on the number's disc. @param {number} u @param {number} v */
+function pixel(u, v) {
+  const column = Math.min(GLYPH - 1, Math.max(0, Math.round(((u / DISC + 1) / 2) * (GLYPH - 1))));
+  const row = Math.min(GLYPH - 1, Math.max(0, Math.round(((1 - v / DISC) / 2) * (GLYPH - 1))));
+  return row * GLYPH + column;
+}
+
+/** Light from the upper left, brightest where the surface faces it. */
+function shade(data, at, colour, z, right, up, cover) {
+  const light = 0.55 + 0.45 * Math.max(0, 0.8 * z - 0.35 * right + 0.45 * up);
+  const shine = Math.max(0, 0.82 * z - 0.34 * right + 0.45 * up) ** 60 * 140;
+  data[at] = colour[0] * light + shine;
+  data[at + 1] = colour[1] * light + shine;
+  data[at + 2] = colour[2] * light + shine;
+  data[at + 3] = 255 * cover;
+}

@@ -1,0 +1,110 @@
+/** A live game in small: a picture, the score, and the strokes as they are played. */
+
+import { el, fill } from "./dom.js";
+import { GameModel } from "./game_model.js";
+import { isOnTable } from "./motion.js";
+import { TablePicture } from "./table_picture.js";
+import { traceOf } from "./trace.js";
+import { describeOutcome, named } from "./words.js";
+
+const WIDTH = 232;
+
+export class Thumbnail {
+  /** @param {string} game */
+  constructor(game) {
+    this.game = game;
+    this.canvas = /** @type {HTMLCanvasElement} */ (el("canvas", { role: "img", "aria-label": "The table" }));
+    this.names = el("span", { class: "names" });
+    this.words = el("span", { class: "words" });
+    this.element = el("a", { class: "thumbnail", href: `#/games/${game}` }, this.canvas, this.names, this.words);
+    /** @type {GameModel | null} */
+    this.model = null;
+    /** @type {TablePicture | null} */
+    this.picture = null;
+    /** @type {import("./trace.js").Trace | null} */
+    this.trace = null;
+    this.began = 0;
+    this.visible = true;
+  }
+
+  /** @param {string} kind @param {any} data */
+  take(kind, data) {
+    if (kind === "game") {
+      this.model = GameModel.ofEvent(data);
+      this.picture = new TablePicture(this.canvas, this.model.terms.table, { plain: true, lying: true });
+      this.picture.fit(WIDTH, WIDTH);
+      fill(this.names, this.model.players.join(" – "));
+      this.rest(this.model.terms.balls);
+      fill(this.words, named(data.view.why, this.model.players));
+    } else if (this.model && (kind === "stroke" || kind === "decision")) {
+      this.play(data);
+      fill(this.words, named(data.ruling.words, this.model.players));
+    } else if (this.model && kind === "result") {
+      fill(this.words, describeOutcome(data.outcome, this.model.players));
+    }
+  }
+
+  /** @param {Record<string, any>} entry */
+  play(entry) {
+    this.trace = traceOf(this.model.terms.table, entry);
+    this.after = entry.game.state;
+    this.began = performance.now();
+    if (!this.trace) this.rest(this.after);
+  }
+
+  rest(balls) {
+    this.trace = null;
+    const places = Object.entries(balls).map(([ball, position]) => [Number(ball), { position }]);
+    this.picture?.draw({ balls: new Map(/** @type {any} */ (places)) });
+  }
+
+  /** Draw what has moved. @param {number} now ms */
+  tick(now) {
+    if (!this.trace || !this.visible) return;
+    const time = (now - this.began) / 1000;
+    if (time >= this.trace.duration) return this.rest(this.after);
+    const balls = new Map();
+    for (const [ball, state] of this.trace.at(time)) if (isOnTable(state)) balls.set(ball, { position: state.position });
+    this.picture?.draw({ balls });
+  }
+}
+
+/** Draws all thumbnails, a few times a second: small pictures need no more, and thirty of them must stay cheap. */
+export class Gallery {
+  constructor() {
+    /** @type {Map<string, Thumbnail>} */
+    this.thumbnails = new Map();
+    this.element = el("div", { class: "gallery" });
+    this.seen = new IntersectionObserver((entries) => {
+      for (const { target, isIntersecting } of entries) {
+        for (const one of this.thumbnails.values()) if (one.element === target) one.visible = isIntersecting;
+      }
+    });
+    this.timer = setInterval(() => requestAnimationFrame((now) => this.tick(now)), 1000 / 15);
+  }
+
+  /** Show these games. @param {string[]} games */
+  show(games) {
+    for (const [game, one] of this.thumbnails) {
+      if (games.includes(game)) continue;
+      this.seen.unobserve(one.element);
+      this.thumbnails.delete(game);
+    }
+    for (const game of games) {
+      if (this.thumbnails.has(game)) continue;
+      const one = new Thumbnail(game);
+      this.thumbnails.set(game, one);
+      this.seen.observe(one.element);
+    }
+    fill(this.element, [...this.thumbnails.values()].map((one) => one.element));
+  }
+
+  tick(now) {
+    for (const one of this.thumbnails.values()) one.tick(now);
+  }
+
+  close() {
+    clearInterval(this.timer);
+    this.seen.disconnect();
+  }
+}

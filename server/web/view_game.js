@@ -1,0 +1,155 @@
+/** A game: live by the server's events, over by its record's lines, or from a file; the same page for all. */
+
+import { ProblemError, call, token } from "./api.js";
+import { announce, el, fill } from "./dom.js";
+import { GameModel } from "./game_model.js";
+import { watchGame } from "./live.js";
+import { reducedMotion } from "./playback.js";
+import { Scoreboard } from "./scoreboard.js";
+import { Stage } from "./stage.js";
+import { StrokeList } from "./stroke_list.js";
+import { StrokeStory } from "./stroke_story.js";
+
+/** Strokes a live picture may lag behind before it jumps to the newest. */
+const LAG = 2;
+
+export class GameView {
+  constructor() {
+    this.stage = new Stage({ ended: () => this.goOn() });
+    this.board = new Scoreboard();
+    this.story = new StrokeStory((time) => this.stage.seek(time));
+    this.list = new StrokeList((place) => this.choose(place));
+    this.title = el("h1", {}, "Game");
+    this.connection = el("p", { class: "connection" });
+    this.follow = /** @type {HTMLInputElement} */ (el("input", { type: "checkbox", checked: true, onchange: () => this.goOn() }));
+    this.ghostButton = el("button", { type: "button", onclick: () => this.ghost() }, "Without noise");
+    this.links = el("p", { class: "links" });
+    this.element = el("article", { class: "game" },
+      this.title, this.connection, this.board.element,
+      el("div", { class: "columns" },
+        el("div", { class: "main-column" }, this.stage.element,
+          el("div", { class: "controls" },
+            el("button", { type: "button", onclick: () => this.choose(this.shown - 1) }, "◂ stroke"),
+            el("button", { type: "button", onclick: () => this.choose(this.shown + 1) }, "stroke ▸"),
+            this.ghostButton,
+            el("label", { class: "check" }, this.follow, "follow the game"))),
+        el("div", { class: "side-column" }, this.story.element, this.list.element, this.links)));
+    /** @type {GameModel | null} */
+    this.model = null;
+    this.shown = -1;
+    this.timer = setInterval(() => this.model && this.board.tick(this.model), 250);
+    this.stop = () => {};
+    /** @type {number | null} */
+    this.wanted = null;
+  }
+
+  /** Watch a game of the server. @param {string} game @param {number | null} stroke to begin with */
+  watch(game, stroke = null) {
+    this.wanted = stroke;
+    this.follow.checked = stroke === null;
+    this.stop = watchGame(game, (kind, data) => this.take(kind, data), (connected) => {
+      fill(this.connection, connected ? "" : "The connection is lost; trying again …");
+    });
+  }
+
+  /** Show a record. @param {string} text */
+  open(text) {
+    this.model = GameModel.ofRecord(text);
+    this.follow.checked = false;
+    this.begin();
+    this.list.update(this.model);
+    this.choose(0);
+  }
+
+  begin() {
+    const { players, number, games, match, table, balls } = this.model.terms;
+    fill(this.title, `${players[0]} – ${players[1]}`);
+    document.title = `${players[0]} – ${players[1]} · Pooliad`;
+    this.stage.useTable(table);
+    this.stage.rest(balls);
+    fill(this.links, `Game ${number + 1}${games ? ` of ${games}` : ""} `,
+      games !== null && match && el("a", { href: `#/matches/${match}` }, "of the match"));
+    this.board.show(this.model, null);
+  }
+
+  take(kind, data) {
+    if (kind === "game") {
+      if (this.model) return;
+      this.model = GameModel.ofEvent(data);
+      this.begin();
+      queueMicrotask(() => this.caughtUp());
+      return;
+    }
+    if (!this.model) return;
+    this.model.take(kind, data);
+    this.list.update(this.model);
+    if (kind === "clocks" || kind === "result") this.goOn();
+    if (kind === "result") this.over();
+    this.board.show(this.model, this.shownState());
+  }
+
+  /** The past has been told, or is about to be: the first clocks come right after it. */
+  caughtUp() {
+    if (this.wanted !== null && this.model?.entries.length > this.wanted) this.choose(this.wanted);
+  }
+
+  over() {
+    const { id } = this.model.terms;
+    fill(this.links, this.links.childNodes.length ? [...this.links.childNodes] : "",
+      " · ", el("a", { href: `/v1/games/${id}/record`, download: `${id}.jsonl` }, "record"));
+    announce(this.board.result.textContent ?? "");
+  }
+
+  /** Following: the next stroke when one is over; the newest when too many wait. */
+  goOn() {
+    const { model } = this;
+    if (!model) return;
+    const last = model.entries.length - 1;
+    if (this.wanted !== null && this.wanted <= last) return this.choose(this.wanted);
+    if (!this.follow.checked || this.stage.playback.playing || this.shown >= last) return;
+    const first = this.shown < 0;
+    const next = first || last - this.shown > LAG || reducedMotion() ? last : this.shown + 1;
+    this.choose(next, { play: !first, atEnd: first, following: true });
+  }
+
+  /**
+   * Show a stroke.
+   * @param {number} place @param {{play?: boolean, atEnd?: boolean, following?: boolean}} [how]
+   */
+  choose(place, { play = false, atEnd = false, following = false } = {}) {
+    const entry = this.model?.entries[place];
+    if (!entry) return;
+    this.wanted = null;
+    if (!following && place !== this.model.entries.length - 1) this.follow.checked = false;
+    this.shown = place;
+    this.stage.load(entry, this.model.ballsBefore(place), { play, atEnd });
+    this.story.show(entry, this.model.players);
+    this.list.mark(place);
+    this.board.show(this.model, this.shownState());
+  }
+
+  shownState() {
+    return this.model.entries[this.shown]?.game ?? null;
+  }
+
+  /** The same stroke as it was meant: simulated by the server, laid over the picture. */
+  async ghost() {
+    const entry = this.model?.entries[this.shown];
+    if (!entry?.before) return announce("A decision has no stroke to simulate.");
+    if (this.stage.ghost) return this.stage.setGhost(null);
+    if (!token()) return announce("Sign in on the page Play: the server simulates for those it knows.");
+    try {
+      const body = { table: this.model.terms.table, balls: entry.before, shot: entry.action.shot, trace: true };
+      this.stage.setGhost(await call("POST", "/v1/simulate", { body }));
+      announce("The stroke without noise is drawn in light blue.");
+    } catch (error) {
+      announce(error instanceof ProblemError ? error.message : "The server cannot be reached.");
+    }
+  }
+
+  close() {
+    this.stop();
+    clearInterval(this.timer);
+    this.stage.close();
+  }
+}

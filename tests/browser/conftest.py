@@ -1,0 +1,166 @@
+"""A real browser, Debian's Chromium, before a real server; every page is watched for what a page must never do."""
+
+import itertools
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import uuid
+from collections.abc import Callable, Iterator
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import httpx2
+import pytest
+from support.play_along import Match, play_on
+from support.require import require
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+ORGANISER = "organiser-of-the-browser-tests-0123456789"
+PATIENCE = 150.0
+
+_names = itertools.count()
+
+
+class Server:
+    """`python -m server` on a port it keeps when it is started again."""
+
+    def __init__(self, database: Path) -> None:
+        self._database, self._port = database, 0
+        self._log = database.with_suffix(".log").open("ab")
+        self.start()
+
+    def start(self) -> None:
+        arguments = ["--port", str(self._port), "--database", f"sqlite:///{self._database}"]
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "server", *arguments],
+            env=os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER},
+            stdout=subprocess.PIPE,
+            stderr=self._log,
+            text=True,
+        )
+        assert self.process.stdout is not None
+        self.url = json.loads(self.process.stdout.readline())["url"]
+        self._port = int(self.url.rpartition(":")[2])
+        self.http = httpx2.Client(base_url=self.url, timeout=PATIENCE)
+
+    def stop(self, number: int = signal.SIGTERM) -> None:
+        self.http.close()
+        self.process.send_signal(number)
+        self.process.wait(PATIENCE)
+        assert self.process.stdout is not None
+        self.process.stdout.close()
+
+    def close(self) -> None:
+        self.stop(signal.SIGKILL)
+        self._log.close()
+
+    def send(self, method: str, path: str, token: str = ORGANISER, **options: Any) -> httpx2.Response:
+        headers = {"Authorization": f"Bearer {token}", "Idempotency-Key": uuid.uuid4().hex}
+        return self.http.request(method, path, headers=headers | options.pop("headers", {}), **options)
+
+    def register(self, name: str = "") -> dict[str, Any]:
+        """A fresh agent: `agent` and `token`."""
+        made = self.http.post("/v1/agents", json={"name": name or f"player {next(_names)}"})
+        assert made.status_code == 201, made.text
+        return dict(made.json())
+
+    def match(self, *, games: int = 1, names: tuple[str, str] = ("", ""), **terms: Any) -> Match:
+        """A running match of two fresh agents."""
+        players = [self.register(name) for name in names]
+        request = {"agents": [one["agent"]["id"] for one in players], "games": games, "seed": "5" * 64} | terms
+        made = self.send("POST", "/v1/matches", json=request)
+        assert made.status_code == 201, made.text
+        return Match(self, made.json(), [one["token"] for one in players])
+
+
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+    """A server that the tests leave running."""
+    running = Server(tmp_path_factory.mktemp("browser") / "pooliad.db")
+    yield running
+    running.close()
+
+
+@pytest.fixture
+def own_server(tmp_path: Path) -> Iterator[Server]:
+    """A server to stop and start."""
+    running = Server(tmp_path / "pooliad.db")
+    yield running
+    running.close()
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    """Chromium, without a window."""
+    require(find_spec("playwright") is not None, "playwright, of the test extra")
+    require(CHROMIUM is not None, "Chromium (Debian's package chromium)")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        sandbox = ["--no-sandbox"] if os.geteuid() == 0 else []
+        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=sandbox)
+        yield chromium
+        chromium.close()
+
+
+class Watched:
+    """What a page did that it must not: errors, breaches of its policy, requests to anywhere else."""
+
+    def __init__(self, home: str) -> None:
+        self._home = home
+        self.faults: list[str] = []
+        self.forgiven: tuple[str, ...] = ()
+
+    def watch(self, page: Any) -> None:
+        page.on("pageerror", lambda error: self.faults.append(f"error: {error}"))
+        page.on("console", lambda told: self.faults.append(told.text) if told.type in ("error", "warning") else None)
+        page.on("request", self._request)
+
+    def _request(self, request: Any) -> None:
+        if not request.url.startswith((self._home, "data:", "blob:")):
+            self.faults.append(f"a request to {request.url}")
+
+    def unforgiven(self) -> list[str]:
+        return [fault for fault in self.faults if not any(text in fault for text in self.forgiven)]
+
+
+@pytest.fixture
+def watched(request: pytest.FixtureRequest) -> Watched:
+    """What is seen of the test's pages; `forgiven` names the faults a test provokes."""
+    name = "own_server" if "own_server" in request.fixturenames else "server"
+    return Watched(request.getfixturevalue(name).url)
+
+
+@pytest.fixture
+def new_page(browser: Any, watched: Watched) -> Iterator[Callable[..., Any]]:
+    """Makes a page with a context of its own; options as of a browser context."""
+    contexts = []
+
+    def make(width: int = 1200, height: int = 900, **options: Any) -> Any:
+        context = browser.new_context(viewport={"width": width, "height": height}, **options)
+        context.set_default_timeout(20_000)
+        contexts.append(context)
+        page = context.new_page()
+        watched.watch(page)
+        return page
+
+    yield make
+    for context in contexts:
+        context.close()
+    assert watched.unforgiven() == []
+
+
+@pytest.fixture
+def page(new_page: Callable[..., Any]) -> Any:
+    """A page on a screen of middling size."""
+    return new_page()
+
+
+@pytest.fixture
+def play() -> Callable[..., int]:
+    """Plays a match on with both hands: see `support.play_along`."""
+    return play_on

@@ -1,0 +1,128 @@
+"""Where the page draws the balls: the closed forms (5) to (9) of docs/physics.md, against `result.at(t)`."""
+
+import json
+import math
+import random
+from pathlib import Path
+
+import pytest
+from support.players import Potter
+
+import physics
+from referee import Action, EightBall, MatchSeed, NoiseModel
+from referee.play.local import PlayedGame, play_game
+
+TOLERANCE = 1e-9
+AT = """async ([table, entry, times]) => {
+  const { traceOf } = await import("/web/trace.js");
+  const trace = traceOf(table, entry);
+  return times.map((time) => Object.fromEntries([...trace.at(time)]));
+}"""
+
+
+SLIDE = "(slider, time) => { slider.value = time; slider.dispatchEvent(new Event('input')); }"
+
+
+def short_game(seed: int, actions: int) -> PlayedGame:
+    """A break and some strokes after it, then a concession."""
+    left = [actions]
+
+    def player(name):
+        potter = Potter(name)
+
+        def choose(view):
+            left[0] -= 1
+            return Action(decision="concede") if left[0] < 0 else potter(view)
+
+        return choose
+
+    table = physics.Table.fastfiz() if seed % 10 == 9 else physics.Table.olympiad()
+    chairs = (player(f"ann {seed}"), player(f"bob {seed}"))
+    return play_game(EightBall(table), chairs, MatchSeed.of(seed).game(0), NoiseModel(1.0), players=("ann 3", "bob 3"))
+
+
+def times_of(stroke, chance: random.Random) -> list[float]:
+    """The ends, moments at random, and events: their times and halfway to the next."""
+    duration, events = stroke.result.duration, stroke.result.events
+    if len(events) < 2:  # a miscue: nothing has moved
+        return [0.0, duration]
+    chosen = [events[chance.randrange(len(events))].time for _ in range(4)]
+    places = [chance.randrange(len(events) - 1) for _ in range(4)]
+    between = [events[n].time / 2 + events[n + 1].time / 2 for n in places]
+    return [0.0, duration, *chosen, *between, *(chance.uniform(0.0, duration) for _ in range(4))]
+
+
+def compare(page, game: PlayedGame, seed: int) -> tuple[int, float]:
+    """How many positions were compared, and the largest distance (m)."""
+    chance, compared, worst = random.Random(seed), 0, 0.0
+    header, *lines = [json.loads(line) for line in game.record()]
+    for stroke, line in zip(game.strokes, lines, strict=False):
+        if stroke.result is None:
+            continue
+        times = times_of(stroke, chance)
+        for time, balls in zip(times, page.evaluate(AT, [header["table"], line, times]), strict=True):
+            truth = stroke.result.at(time)
+            for ball, shown in balls.items():
+                x, y = truth.positions[int(ball)]
+                assert math.isnan(x) == (shown["motion"] in ("pocketed", "absent")), (seed, line["entry"], time, ball)
+                if not math.isnan(x):
+                    compared += 1
+                    worst = max(worst, math.dist((x, y), shown["position"]))
+                    spin, velocity = truth.spins[int(ball)], truth.velocities[int(ball)]
+                    assert math.dist(spin, shown["spin"]) < 1e-6
+                    assert math.dist(velocity, shown["velocity"]) < TOLERANCE
+    return compared, worst
+
+
+def test_positions_of_fifty_records_are_those_of_the_physics(page, server):
+    """Fifty breaks and the strokes after them; every tenth game on the historical table."""
+    page.goto(server.url)
+    compared, worst = 0, 0.0
+    for seed in range(50):
+        count, distance = compare(page, short_game(seed, 3), seed)
+        compared, worst = compared + count, max(worst, distance)
+    assert compared > 20_000
+    assert worst < TOLERANCE
+
+
+@pytest.mark.long
+def test_positions_of_whole_games_are_those_of_the_physics(page, server):
+    page.goto(server.url)
+    worst = max(compare(page, short_game(seed, 400), seed)[1] for seed in range(100, 150))
+    assert worst < TOLERANCE
+
+
+def test_a_record_file_replays_without_the_server(page, own_server, watched, tmp_path: Path):
+    """Chosen from the disk, scrubbed with the slider, stepped by event; the server is gone meanwhile."""
+    watched.forgiven = ("Failed to load resource", "ERR_CONNECTION")
+    game = short_game(3, 4)
+    file = tmp_path / "record.jsonl"
+    file.write_text("".join(f"{line}\n" for line in game.record()))
+    page.goto(own_server.url)
+    page.get_by_label("Look at a record").wait_for()
+    own_server.process.terminate()
+    own_server.process.wait(20)
+    page.get_by_label("Look at a record").set_input_files(file)
+    assert page.locator("ol.strokes li").count() == len(game.strokes)
+    slider = page.get_by_label("Time of the stroke")
+    duration = game.strokes[0].result.duration
+    assert float(slider.get_attribute("max")) == pytest.approx(duration, abs=1e-9)
+    for part in (0.0, 0.31, 1.0):
+        slider.evaluate(SLIDE, part * duration)
+        assert page.locator("output.time").inner_text() == f"{part * duration:.2f} s"
+    page.get_by_label("Event before").click()
+    assert float(page.locator("output.time").inner_text().split()[0]) < duration
+    page.get_by_role("button", name="Play", exact=True).click()
+    page.locator("output.time", has_text=f"{duration:.2f}").wait_for()
+    page.get_by_role("button", name="stroke ▸").click()
+    assert page.locator(".row[aria-current]").inner_text().startswith("ann 3")
+
+
+def test_a_file_that_is_no_record_is_said_to_be_none(page, server, tmp_path: Path):
+    for content in ("", "{}", "not json", '{"type":"game"}', "[1,2]"):
+        file = tmp_path / "bad.jsonl"
+        file.write_text(content)
+        page.goto(server.url + "/#/")
+        page.reload()
+        page.get_by_label("Look at a record").set_input_files(file)
+        page.locator(".problem", has_text="no record of a game").wait_for()
