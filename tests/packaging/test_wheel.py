@@ -22,6 +22,8 @@ def test_the_wheel_holds_the_packages_and_nothing_else(wheel: Path) -> None:
         sources = {str(path.relative_to(ROOT)) for path in (ROOT / package).rglob("*.py")}
         assert sources <= names
     assert any(name.endswith("licenses/LICENSE") for name in names)
+    page = {str(path.relative_to(ROOT)) for path in (ROOT / "server" / "web").iterdir()}
+    assert {"server/web/index.html", "server/web/main.js"} <= page <= names
 
 
 def test_the_base_install_has_everything_but_the_server(without_server) -> None:
