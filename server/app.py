@@ -1,7 +1,7 @@
 """The composition root: the only place where the server's parts are put together."""
 
 from collections.abc import AsyncIterator, Callable
-from contextlib import AbstractAsyncContextManager, asynccontextmanager
+from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager
 from functools import partial
 from importlib.metadata import version
 
@@ -16,6 +16,7 @@ from server.services import warmup
 from server.services.context import Context
 from server.services.heartbeat import Heartbeat
 from server.services.house_bots import House
+from server.services.relay import Relay
 from server.services.spectators import Spectators
 from server.services.timer import Timer
 from server.settings import Settings
@@ -59,15 +60,14 @@ def create_app(settings: Settings) -> FastAPI:
 def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManager[None]]:
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        context.database.membership.enter()
         upgrade(context.database)
         context.wakeups.start()
         warmup.start(context)
-        async with (
-            Heartbeat(context).beating(),
-            Timer(context).running(),
-            app.state.spectators.running(),
-            app.state.house.running(),
-        ):
+        parts = Relay(context), Heartbeat(context), Timer(context), app.state.spectators, app.state.house
+        async with AsyncExitStack() as stack:
+            for part in parts:
+                await stack.enter_async_context(part.running())
             yield
         context.wakeups.drain()
         context.database.dispose()

@@ -7,34 +7,33 @@ import asyncio
 import json
 import signal
 import socket
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import uvicorn
 
 from server.app import create_app
 from server.services.context import Context
-from server.services.house_bots import House
 from server.settings import Settings
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
+BACKLOG = 2048
+"""Connections that may wait to be accepted."""
 
 
 class _Server(uvicorn.Server):
     """uvicorn, draining at the signal itself: its own hook comes after the connections it waits for."""
 
-    def __init__(self, config: uvicorn.Config, context: Context, house: House) -> None:
+    def __init__(self, config: uvicorn.Config, context: Context, ready: Callable[[], None]) -> None:
         super().__init__(config)
         self._context = context
-        self._house = house
+        self._ready = ready
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Start, then announce the address."""
+        """Start, then say so."""
         await super().startup(sockets)
         if self.started:
-            url = _url(*self.servers[0].sockets[0].getsockname()[:2])
-            print(json.dumps({"event": "listening", "url": url}), flush=True)  # noqa: T201
-            self._house.listening(url)
+            self._ready()
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
@@ -54,16 +53,30 @@ class _Server(uvicorn.Server):
 
 
 def serve(settings: Settings, host: str, port: int) -> None:
-    """Serve until a signal; port 0 takes a free one. Exits with 3 when the address is taken.
+    """Serve until a signal; port 0 takes a free one. Raises `OSError` when the address is taken.
 
     The first line on standard output is `{"event": "listening", "url": "http://127.0.0.1:8080"}`, written
     once connections are accepted; the log goes to standard error.
     """
+    with listening(host, port) as server_socket:
+        serve_on(server_socket, settings, lambda: announce(server_socket))
+
+
+def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[], None]) -> None:
+    """Serve on a listening socket until a signal; `ready` is called once requests are answered.
+
+    Raises `SettingsError` when the database is not to be had.
+    """
     app = create_app(settings)
+    context: Context = app.state.context
+    context.database.membership.enter()
+
+    def started() -> None:
+        app.state.house.listening(_url(server_socket))
+        ready()
+
     config = uvicorn.Config(
         app,
-        host=host,
-        port=port,
         http="h11",
         ws="none",
         lifespan="on",
@@ -72,10 +85,22 @@ def serve(settings: Settings, host: str, port: int) -> None:
         log_level="warning",
         timeout_graceful_shutdown=max(1, round(settings.drain_seconds)),
     )
-    _Server(config, app.state.context, app.state.house).run()
+    _Server(config, context, started).run([server_socket])
 
 
-def _url(host: str, port: int) -> str:
+def listening(host: str, port: int) -> socket.socket:
+    """A socket that listens at this address."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    return socket.create_server((host, port), family=family, backlog=BACKLOG)
+
+
+def announce(server_socket: socket.socket) -> None:
+    """Say where the server is, on standard output."""
+    print(json.dumps({"event": "listening", "url": _url(server_socket)}), flush=True)  # noqa: T201
+
+
+def _url(server_socket: socket.socket) -> str:
     """The address to connect to for somebody on this machine."""
+    host, port = server_socket.getsockname()[:2]
     reachable = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
     return f"http://[{reachable}]:{port}" if ":" in reachable else f"http://{reachable}:{port}"

@@ -2,6 +2,7 @@
 
 import hashlib
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
@@ -45,8 +46,7 @@ class Settings:
     house_places: int = 4
 
     def __post_init__(self) -> None:
-        if not self.database.startswith("sqlite:///") or self.database == "sqlite:///:memory:":
-            raise SettingsError(f"database is {self.database!r}; allowed: sqlite:///path (a file)")
+        _require_database(self.database)
         for field in fields(self):
             value = getattr(self, field.name)
             if isinstance(value, int | float) and not (math.isfinite(value) and value >= 0):
@@ -77,6 +77,18 @@ def organiser_digest(token: str) -> str:
             f"the organiser token has {len(token)} characters; allowed: at least {SHORTEST_ORGANISER_TOKEN}"
         )
     return hashlib.sha256(token.encode()).hexdigest()
+
+
+def _require_database(url: str) -> None:
+    is_file = url.startswith("sqlite:///") and url not in ("sqlite:///", "sqlite:///:memory:")
+    if not (is_file or url.startswith("postgresql://")):
+        allowed = "sqlite:///path (a file), postgresql://user@host/name"
+        raise SettingsError(f"database is {without_password(url)!r}; allowed: {allowed}")
+
+
+def without_password(url: str) -> str:
+    """A database's URL as it may be shown."""
+    return re.sub(r"(//[^/@]*:)[^@]*@", r"\1***@", url)
 
 
 def _parsed(name: str, text: str, kind: Callable[[str], Any]) -> Any:

@@ -7,7 +7,7 @@ import typer
 
 from client.cli.output import fail
 
-NEEDED = ("fastapi", "uvicorn", "sqlalchemy", "alembic")
+NEEDED = ("fastapi", "uvicorn", "sqlalchemy", "alembic", "psycopg")
 """What the `server` extra brings."""
 
 
@@ -31,11 +31,12 @@ def serve(
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port to listen on; 0 picks a free one.")] = 8080,
     database: Annotated[
-        str, typer.Option(envvar="POOLIAD_DATABASE", help="Where games are kept: sqlite:///path.")
+        str, typer.Option(envvar="POOLIAD_DATABASE", help="Where games are kept: sqlite:///path or postgresql://….")
     ] = "sqlite:///pooliad.db",
+    processes: Annotated[int, typer.Option(min=1, help="Server processes; more than one on PostgreSQL only.")] = 1,
 ) -> None:
     """Serve matches over HTTP until interrupted."""
     import os
 
-    command = server_command(host, port, database)
+    command = [*server_command(host, port, database), "--processes", str(processes)]
     os.execv(command[0], command)

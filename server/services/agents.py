@@ -12,6 +12,7 @@ from server.security.tokens import derived_token, digest, new_token
 from server.services.commands import Answer, Command, once
 from server.services.context import Context
 from server.services.time import date_time
+from server.store.locks import only_one
 from server.store.tables import agents, tokens
 
 
@@ -20,6 +21,7 @@ def register(context: Context, request: AgentRequest) -> Answer:
     now = context.time.now()
     agent_id = f"agent_{secrets.token_hex(8)}"
     with context.database.writing() as connection:
+        only_one(connection, f"name {request.name}")
         if connection.execute(select(agents.c.id).where(agents.c.name == request.name)).first():
             raise NameTaken(
                 f"the name {request.name!r} is taken",

@@ -12,6 +12,7 @@ from sqlalchemy import Connection, insert, select
 
 from server.errors import BadHeader, KeyReused, NotJson, UnsupportedMediaType, invalid_fields
 from server.security.callers import Caller
+from server.store.locks import only_one
 from server.store.tables import answers
 
 LONGEST_KEY = 200
@@ -122,6 +123,7 @@ def once(connection: Connection, command: Command, act: Callable[[], Answer]) ->
 
     `connection` is in the transaction that `act` writes in.
     """
+    only_one(connection, f"{command.caller.id} {command.route} {_key(command)}")
     if stored := recall(connection, command):
         return stored
     answer = act()

@@ -35,11 +35,6 @@ class Context:
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
 
     @property
-    def shared(self) -> bool:
-        """Whether other processes may serve the same database; SQLite's has one."""
-        return not self.settings.database.startswith("sqlite")
-
-    @property
     def fetch_grace(self) -> int:
         """Nanoseconds a turn may lie unfetched before its clock starts by itself."""
         return nanoseconds(self.settings.fetch_grace)

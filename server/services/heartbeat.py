@@ -13,16 +13,12 @@ from collections.abc import AsyncIterator
 from sqlalchemy import Connection, delete, func, insert, select, update
 from starlette.concurrency import run_in_threadpool
 
-from referee.play import nanoseconds
 from server.services import turn_clock
 from server.services.context import Context, Writing
 from server.services.live import RUNNING, find
 from server.store.tables import games, heartbeats
 
 log = logging.getLogger("pooliad.server.heartbeat")
-
-MISSED_BEATS = 3
-"""A process that missed so many beats is dead: fewer and a busy disk looks like a death, more and a new start waits."""
 
 
 class Heartbeat:
@@ -34,9 +30,9 @@ class Heartbeat:
         self._period = context.settings.heartbeat_period
 
     @contextlib.asynccontextmanager
-    async def beating(self) -> AsyncIterator[None]:
+    async def running(self) -> AsyncIterator[None]:
         """Take up the games that wait, and beat for as long as the block lasts."""
-        await self._take_up()
+        await run_in_threadpool(self._begin)
         task = asyncio.create_task(self._run())
         try:
             yield
@@ -44,18 +40,18 @@ class Heartbeat:
             task.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await task
-            await run_in_threadpool(beat, self._context, self._process, stopped=True)
+            await run_in_threadpool(self._leave)
 
-    async def _take_up(self) -> None:
-        """Begin to beat; if no other process is alive, the clocks stood still since the last beat.
+    def _begin(self) -> None:
+        """The first process at work on the database takes up the games; whoever else starts now waits until it has."""
+        membership = self._context.database.membership
+        membership.enter()
+        begin(self._context, self._process, alone=membership.is_alone)
+        membership.settle()
 
-        One that beat a moment ago may be alive, or killed a moment ago: the next beats will tell.
-        """
-        others = await run_in_threadpool(alive, self._context)
-        if others and self._context.shared:
-            await asyncio.sleep(MISSED_BEATS * self._period)
-            others = await run_in_threadpool(beating_since, self._context, others)
-        await run_in_threadpool(begin, self._context, self._process, alone=not (others and self._context.shared))
+    def _leave(self) -> None:
+        beat(self._context, self._process, stopped=True)
+        self._context.database.membership.leave()
 
     async def _run(self) -> None:
         while True:
@@ -64,19 +60,6 @@ class Heartbeat:
                 await run_in_threadpool(beat, self._context, self._process)
             except Exception:
                 log.exception("no heartbeat; the next is due in %g s", self._period)
-
-
-def alive(context: Context) -> dict[str, int]:
-    """The processes that may be alive, with their last heartbeats."""
-    since = context.time.now() - nanoseconds(MISSED_BEATS * context.settings.heartbeat_period)
-    fresh = (heartbeats.c.beat_at > since) & heartbeats.c.stopped.is_(False)
-    with context.database.reading() as connection:
-        return {row.process: row.beat_at for row in connection.execute(select(heartbeats).where(fresh))}
-
-
-def beating_since(context: Context, before: dict[str, int]) -> dict[str, int]:
-    """Those of the processes that went on beating, or others that have begun to."""
-    return {process: at for process, at in alive(context).items() if at > before.get(process, 0)}
 
 
 def begin(context: Context, process: str, *, alone: bool) -> None:

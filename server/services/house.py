@@ -19,6 +19,7 @@ from server.errors import SettingsError, invalid_field
 from server.security.callers import Caller
 from server.services.agents import renewed_token
 from server.services.context import Context, Writing
+from server.store.locks import only_one
 from server.store.tables import agents, house, matches
 
 MOST_GAMES: Final = 10
@@ -61,6 +62,7 @@ def _bot(entry: str) -> HouseBot:
 def enter(context: Context, bot: HouseBot) -> str:
     """The bot's id, registered if need be; raises `SettingsError` when its name is somebody else's."""
     with context.writing() as writing:
+        only_one(writing.connection, f"name {bot.name}")
         row = writing.connection.execute(select(agents).where(agents.c.name == bot.name)).one_or_none()
         if row is None:
             agent_id = f"agent_{secrets.token_hex(8)}"
@@ -78,6 +80,7 @@ def enter(context: Context, bot: HouseBot) -> str:
 def take(context: Context, agent_id: str, holder: str) -> str | None:
     """A new token for the bot if nobody runs it, and the lease with it; None when somebody does."""
     with context.writing() as writing:
+        only_one(writing.connection, f"house bot {agent_id}")
         lease = writing.connection.execute(select(house).where(house.c.agent_id == agent_id)).one_or_none()
         if lease is not None and lease.until > writing.now and lease.holder != holder:
             return None
@@ -119,6 +122,7 @@ def has_place(writing: Writing, match: Row[Any]) -> bool:
     bot = match.seat_1 if match.challenger == match.seat_0 else match.seat_0
     if not _is_house(writing.connection, bot):
         return False
+    only_one(writing.connection, f"places of {bot}")
     running = select(func.count()).select_from(matches).where(matches.c.status == "running", _plays(bot))
     taken = writing.connection.scalar(running) or 0
     with_it = writing.connection.scalar(running.where(_plays(match.challenger))) or 0

@@ -15,6 +15,7 @@ from starlette.concurrency import run_in_threadpool
 from server.services import house, matches
 from server.services.context import Context
 from server.services.house import HouseBot
+from server.store.locks import only_one
 
 log = logging.getLogger("pooliad.server.house")
 
@@ -108,8 +109,10 @@ def accept_waiting(context: Context) -> None:
             return
     players: list[str] = []
     with context.writing() as writing:
-        for match in house.waiting(writing.connection):
-            if house.has_place(writing, match):
+        only_one(writing.connection, "waiting challenges")
+        for seen in house.waiting(writing.connection):
+            match = matches.hold(writing.connection, seen.id)
+            if match.status == "challenged" and house.has_place(writing, match):
                 matches.start(writing, match)
                 players += match.seat_0, match.seat_1
     context.wakeups.notify(players)

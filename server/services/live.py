@@ -13,6 +13,7 @@ from referee.rules import EightBall
 from referee.wire import BudgetView, ClockView, GameTerms, NoiseView, Position, StrokeView, View
 from server.errors import Forbidden, NotFound
 from server.security.callers import Caller
+from server.store.locks import hold_match_of
 from server.store.tables import agents, games, matches, moves
 
 RUNNING: Final = "running"
@@ -181,6 +182,12 @@ def find(connection: Connection, game_id: str) -> LiveGame:
         players=player_names(connection, match),
         score=score_of(connection, match.id),
     )
+
+
+def hold(connection: Connection, game_id: str) -> LiveGame:
+    """The same, to be written: nobody else writes the match until the transaction ends."""
+    hold_match_of(connection, game_id)
+    return find(connection, game_id)
 
 
 def player_names(connection: Connection, match: Row[Any]) -> tuple[str, str]:

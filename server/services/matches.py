@@ -14,6 +14,7 @@ from server.security.callers import Caller
 from server.services import games, house, match_views
 from server.services.commands import Answer, Command, once, parse
 from server.services.context import Context, Writing
+from server.store.locks import hold_match
 from server.store.tables import agents, matches
 
 STATUSES: Final[tuple[str, ...]] = get_args(MatchStatus)
@@ -30,7 +31,7 @@ def create(context: Context, command: Command) -> Answer:
 def accept(context: Context, match_id: str, command: Command) -> Answer:
     """The challenged agent (or the organiser) accepts, and the first game begins."""
     with context.writing() as writing:
-        match = _find(writing.connection, match_id)
+        match = hold(writing.connection, match_id)
         _require_challenged(match, command.caller)
         answer = once(writing.connection, command, lambda: _accepted(writing, match))
     context.wakeups.notify((match.seat_0, match.seat_1))
@@ -40,7 +41,7 @@ def accept(context: Context, match_id: str, command: Command) -> Answer:
 def abort(context: Context, match_id: str, command: Command) -> Answer:
     """Call a match off: the organiser at any time, a player only while it is a challenge."""
     with context.writing() as writing:
-        match = _find(writing.connection, match_id)
+        match = hold(writing.connection, match_id)
         _require_may_abort(match, command.caller)
         answer = once(writing.connection, command, lambda: _aborted(writing, match))
     context.wakeups.notify((match.seat_0, match.seat_1))
@@ -180,6 +181,12 @@ def _find(connection: Connection, match_id: str) -> Row[Any]:
     if row is None:
         raise NotFound(f"there is no match {match_id}")
     return row
+
+
+def hold(connection: Connection, match_id: str) -> Row[Any]:
+    """A match to be written by this transaction alone; raises `NotFound`."""
+    hold_match(connection, match_id)
+    return _find(connection, match_id)
 
 
 def _update(connection: Connection, match_id: str, **values: object) -> Row[Any]:

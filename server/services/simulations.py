@@ -5,7 +5,7 @@ from sqlalchemy import true, update
 from server.errors import BudgetSpent, GameFinished
 from server.security.callers import Caller
 from server.services.context import Context
-from server.services.live import LiveGame, find
+from server.services.live import LiveGame, hold
 from server.store.tables import games
 
 
@@ -17,7 +17,7 @@ def count(context: Context, caller: Caller, game_id: str | None, shots: int) -> 
     if game_id is None:
         return
     with context.writing() as writing:
-        live = find(writing.connection, game_id)
+        live = hold(writing.connection, game_id)
         seat = live.seat_of(caller)
         if not live.is_running:
             raise GameFinished(f"game {live.id} is {live.row.status}")

@@ -18,7 +18,7 @@ from server import errors
 from server.services import games, simulations
 from server.services.commands import Answer, Command, keep, parse, recall
 from server.services.context import Context, Writing
-from server.services.live import LiveGame, find
+from server.services.live import LiveGame, find, hold
 from server.store.tables import moves
 
 
@@ -58,7 +58,7 @@ def _act(context: Context, game_id: str, command: Command, read: Callable[[], _A
         _require_turn(connection, live, seat, command)
     asked, stroke = _played(live, read)
     with context.writing() as writing:
-        live = find(writing.connection, game_id)
+        live = hold(writing.connection, game_id)
         if stored := recall(writing.connection, command):
             return stored
         _require_turn(writing.connection, live, seat, command)

@@ -14,6 +14,7 @@ from server.services import games as course
 from server.services import turn_clock
 from server.services.context import Context
 from server.services.live import find
+from server.store.locks import lease_match_of
 from server.store.tables import games
 
 log = logging.getLogger("pooliad.server.timer")
@@ -60,6 +61,8 @@ def flag(context: Context) -> None:
 
 def _flag(context: Context, game_id: str, now: int) -> None:
     with context.writing() as writing:
+        if not lease_match_of(writing.connection, game_id):
+            return
         live = find(writing.connection, game_id)
         deadline = live.row.deadline
         if deadline is None or deadline > now or context.is_in_hand(game_id, deadline):

@@ -11,6 +11,7 @@ from referee.wire import Turn
 from server.services import turn_clock
 from server.services.context import Context
 from server.services.live import find
+from server.store.locks import hold_match_of, only_one
 from server.store.tables import games, notices
 
 
@@ -57,11 +58,14 @@ def next_message(context: Context, agent: str) -> bytes | None:
             return None
     with context.writing() as writing:
         connection, now = writing.connection, writing.now
-        if (news := _news(connection, agent)) is not None:
+        if (news := _new(connection, agent)) is not None:
             this = notices.c.sequence == news.sequence
             connection.execute(update(notices).where(this).values(delivered_at=now))
             return str(news.message).encode()
-        turn = _waiting_turn(connection, agent, now)
+        if (turn := _waiting_turn(connection, agent, now)) is None:
+            return None
+        hold_match_of(connection, turn.id)
+        turn = _waiting_turn(connection, agent, now, turn.id)  # as it is now that nobody else changes it
         return None if turn is None else _delivered(connection, turn, agent, now)
 
 
@@ -70,9 +74,17 @@ def _news(connection: Connection, agent: str) -> Row[Any] | None:
     return connection.execute(select(notices).where(waiting).order_by(notices.c.sequence).limit(1)).first()
 
 
-def _waiting_turn(connection: Connection, agent: str, now: int) -> Row[Any] | None:
+def _new(connection: Connection, agent: str) -> Row[Any] | None:
+    """The agent's next news, to be delivered by this transaction alone."""
+    only_one(connection, f"news of {agent}")
+    return _news(connection, agent)
+
+
+def _waiting_turn(connection: Connection, agent: str, now: int, game_id: str | None = None) -> Row[Any] | None:
     """A turn not delivered yet goes before one that was; one whose time is out waits for the timer alone."""
     turns = select(games).where(games.c.mover == agent, games.c.deadline > now)
+    if game_id is not None:
+        turns = turns.where(games.c.id == game_id)
     return connection.execute(turns.order_by(games.c.delivered, games.c.available_at).limit(1)).first()
 
 

@@ -6,13 +6,13 @@ from server.errors import GameFinished
 from server.services import games, history
 from server.services.commands import Answer, Command, once, parse
 from server.services.context import Context, Writing
-from server.services.live import LiveGame, find
+from server.services.live import LiveGame, hold
 
 
 def forfeit(context: Context, game_id: str, command: Command) -> Answer:
     """End a running game against one of its players; for the organiser alone."""
     with context.writing() as writing:
-        live = find(writing.connection, game_id)
+        live = hold(writing.connection, game_id)
         command.caller.require_organiser()
         answer = once(writing.connection, command, lambda: _ended(writing, live, command))
     context.wakeups.notify(live.agents)

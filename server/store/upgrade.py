@@ -8,13 +8,15 @@ from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
 
 from server.store.database import Database
+from server.store.locks import only_one
 
 SCRIPTS = Path(__file__).parent / "migrations"
 
 
 def upgrade(database: Database) -> None:
-    """Create the tables, or run the migrations that are missing, in one transaction."""
+    """Create the tables, or run the migrations that are missing, in one transaction; one process at a time."""
     with database.writing() as connection:
+        only_one(connection, "upgrade")
         config = _config()
         config.attributes["connection"] = connection
         command.upgrade(config, "head")

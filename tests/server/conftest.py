@@ -1,4 +1,4 @@
-"""A real server for the tests: `python -m server` on loopback, as a process, with a real SQLite file."""
+"""A real server for the tests: `python -m server` on loopback, as a process, with a real SQLite file or PostgreSQL."""
 
 import itertools
 import json
@@ -16,7 +16,19 @@ from typing import Any
 
 import httpx2
 import pytest
+from support.postgres import Cluster, cluster
 
+BOTH = ("sqlite", "postgresql")
+DATABASES = {
+    "test_agents": BOTH,
+    "test_exactly_once": BOTH,
+    "test_long_poll": BOTH,
+    "test_matches": BOTH,
+    "test_order_of_checks": BOTH,
+    "test_whole_match": BOTH,
+    "test_several_processes": ("postgresql",),
+}
+"""The databases that a module's tests run on; SQLite unless told."""
 ORGANISER_TOKEN = secrets.token_urlsafe(32)
 PATIENCE = 150.0
 """Seconds to wait for an answer: the first shot after a change of the kernels waits for their compiler."""
@@ -25,16 +37,24 @@ _names = itertools.count()
 
 
 class Running:
-    """One server process over one database file; it can be stopped, killed and started again."""
+    """One server process over one database; it can be stopped, killed and started again."""
 
-    def __init__(self, database: Path, environment: dict[str, str]) -> None:
-        self.database = database
+    def __init__(self, folder: Path, url: str, environment: dict[str, str], *options: str) -> None:
+        self.database_url = url
         self._environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER_TOKEN} | environment
-        self._log = database.with_suffix(".log").open("ab")
+        self._options = options
+        self._log_file = folder / f"server{next(_names)}.log"
+        self._log = self._log_file.open("ab")
         self.start()
 
+    @property
+    def database(self) -> Path:
+        """The database's file."""
+        assert self.database_url.startswith("sqlite:///")
+        return Path(self.database_url.removeprefix("sqlite:///"))
+
     def start(self) -> None:
-        command = [sys.executable, "-m", "server", "--port", "0", "--database", f"sqlite:///{self.database}"]
+        command = [sys.executable, "-m", "server", "--port", "0", "--database", self.database_url, *self._options]
         self.process = subprocess.Popen(
             command, env=self._environment, stdout=subprocess.PIPE, stderr=self._log, text=True
         )
@@ -67,7 +87,7 @@ class Running:
 
     @property
     def log(self) -> str:
-        return self.database.with_suffix(".log").read_text()
+        return self._log_file.read_text()
 
     def request(self, method: str, path: str, token: str | None = None, **options: Any) -> httpx2.Response:
         """Send a request, with a token when one is given."""
@@ -185,20 +205,67 @@ BREAK = {
 
 
 @pytest.fixture(scope="session")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+def new_running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Running]]:
+    """Makes a server on a database that is there already; it lives as long as the tests."""
+    started: list[Running] = []
+
+    def make(database: str, **environment: str) -> Running:
+        started.append(Running(tmp_path_factory.mktemp("server"), database, environment))
+        return started[-1]
+
+    yield make
+    for running in started:
+        running.close()
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Every test runs on the databases of its module."""
+    if "database_kind" in metafunc.fixturenames:
+        kinds = DATABASES.get(metafunc.module.__name__.rpartition(".")[2], BOTH[:1])
+        metafunc.parametrize("database_kind", kinds, indirect=True, scope="session")
+
+
+@pytest.fixture(scope="session")
+def database_kind(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+@pytest.fixture(scope="session")
+def postgres() -> Iterator[Cluster]:
+    """A PostgreSQL for as long as the tests run."""
+    with cluster() as made:
+        yield made
+
+
+@pytest.fixture(scope="session")
+def new_database(
+    database_kind: str, request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Callable[[], str]:
+    """Makes the URL of a fresh database."""
+    if database_kind == "postgresql":
+        made: Cluster = request.getfixturevalue("postgres")
+        return made.new
+    return lambda: f"sqlite:///{tmp_path_factory.mktemp('database') / 'pooliad.db'}"
+
+
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory, new_database: Callable[[], str]) -> Iterator[Running]:
     """A server that lives as long as the tests; they must not stop it."""
-    running = Running(tmp_path_factory.mktemp("server") / "pooliad.db", {})
+    running = Running(tmp_path_factory.mktemp("server"), new_database(), {})
     yield running
     running.close()
 
 
 @pytest.fixture
-def own_server(tmp_path: Path) -> Iterator[Callable[..., Running]]:
-    """Makes a server of the test's own, with settings from the environment, to be stopped as it likes."""
+def own_server(tmp_path: Path, new_database: Callable[[], str]) -> Iterator[Callable[..., Running]]:
+    """Makes a server of the test's own, with settings from the environment, to be stopped as it likes.
+
+    `database`: one that is there already; `options`: more of the command line.
+    """
     started: list[Running] = []
 
-    def make(**environment: str) -> Running:
-        started.append(Running(tmp_path / f"pooliad{len(started)}.db", environment))
+    def make(database: str | None = None, options: tuple[str, ...] = (), **environment: str) -> Running:
+        started.append(Running(tmp_path, database or new_database(), environment, *options))
         return started[-1]
 
     yield make

@@ -1,6 +1,7 @@
 """CONTRACT, HTTP: agents and tokens."""
 
-import sqlite3
+from server.store.database import Database
+from server.store.tables import metadata
 
 
 def test_a_token_is_shown_once_and_works(server, new_player):
@@ -12,9 +13,10 @@ def test_a_token_is_shown_once_and_works(server, new_player):
 
 def test_only_the_hash_of_a_token_is_stored(server, new_player):
     player = new_player()
-    with sqlite3.connect(f"file:{server.database}?mode=ro", uri=True) as database:
-        dump = "\n".join(database.iterdump())
-    database.close()
+    database = Database(server.database_url)
+    with database.reading() as connection:
+        dump = str([connection.execute(table.select()).all() for table in metadata.sorted_tables])
+    database.dispose()
     assert player.id in dump
     assert player.token not in dump
 

@@ -163,21 +163,6 @@ def test_a_process_that_joins_others_charges_nothing_and_stops_no_clock(stage):
     assert (clock.seconds_left, clock.running) == (8.0, True)
 
 
-def test_a_process_is_alive_while_it_beats_and_dead_when_it_stopped_or_missed_three(stage):
-    now = stage()
-    heartbeat.begin(now.context, "first", alone=True)
-    known = heartbeat.alive(now.context)
-    assert set(known) == {"first"}
-    assert heartbeat.beating_since(now.context, known) == {}
-    now.time.pass_(1.0)
-    heartbeat.beat(now.context, "first")
-    assert set(heartbeat.beating_since(now.context, known)) == {"first"}
-    now.time.pass_(3.0)
-    assert heartbeat.alive(now.context) == {}
-    heartbeat.beat(now.context, "first", stopped=True)
-    assert heartbeat.alive(now.context) == {}
-
-
 # ends that a supervisor decides
 
 

@@ -1,0 +1,109 @@
+"""Which server processes are at work on a database.
+
+A process that dies, however it dies, is gone at once: what says that it is there is held by the operating system or by
+its connection to the database.
+"""
+
+import fcntl
+import os
+from typing import Final, Protocol
+
+from sqlalchemy import Connection, Engine, text
+
+from server.errors import SettingsError
+from server.store.sqlite import path_of
+
+SERVING: Final = 0x706F6F6C
+"""The key of the advisory lock that every server process shares ("pool")."""
+
+
+class Membership(Protocol):
+    """A process's place among those at work."""
+
+    def enter(self) -> None:
+        """Take the place; a second time does nothing. Raises `SettingsError` when the database is another's."""
+
+    def settle(self) -> None:
+        """Let others in: what only the first process does is done."""
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether no other process was there when this one entered."""
+
+    def leave(self) -> None:
+        """Give the place back."""
+
+
+class AloneMembership:
+    """One server process a file: a lock on `FILE.lock`, which ends with the process."""
+
+    is_alone: Final = True
+
+    def __init__(self, url: str) -> None:
+        self._path = f"{path_of(url)}.lock"
+        self._file: int | None = None
+
+    def enter(self) -> None:
+        """Take the lock, or say who has it."""
+        if self._file is not None:
+            return
+        file = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o600)
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            owner = os.read(file, 20).decode().strip()
+            os.close(file)
+            raise SettingsError(
+                f"the database {self._path.removesuffix('.lock')} is served by another process ({owner}); "
+                "allowed: one server process an SQLite file, several a postgresql:// database"
+            ) from error
+        os.truncate(file, 0)
+        os.write(file, f"{os.getpid()}\n".encode())
+        self._file = file
+
+    def settle(self) -> None:
+        """Nobody else comes in."""
+
+    def leave(self) -> None:
+        """Let go of the lock; the file stays, for taking it away could take another's."""
+        if self._file is not None:
+            os.close(self._file)
+            self._file = None
+
+
+class SharedMembership:
+    """Any number of processes: a lock shared on one connection each.
+
+    Who comes first holds it alone until it has settled; meanwhile others wait in `enter`.
+    """
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+        self._connection: Connection | None = None
+        self.is_alone = False
+
+    def enter(self) -> None:
+        """Take the lock: alone if nobody has it, else shared."""
+        if self._connection is not None:
+            return
+        self._connection = self._engine.connect().execution_options(isolation_level="AUTOCOMMIT")
+        self.is_alone = bool(self._ask("SELECT pg_try_advisory_lock(:key)"))
+        if not self.is_alone:
+            self._ask("SELECT pg_advisory_lock_shared(:key)")
+
+    def settle(self) -> None:
+        """Share the lock that was held alone."""
+        if self.is_alone:
+            self._ask("SELECT pg_advisory_lock_shared(:key)")
+            self._ask("SELECT pg_advisory_unlock(:key)")
+
+    def leave(self) -> None:
+        """End the session, and with it every lock."""
+        if self._connection is not None:
+            self._connection.invalidate()
+            self._connection.close()
+            self._connection = None
+
+    def _ask(self, statement: str) -> object:
+        assert self._connection is not None
+        return self._connection.execute(text(statement), {"key": SERVING}).scalar()

@@ -1,0 +1,43 @@
+"""SQLite: in WAL mode, flushed at every commit; one server process."""
+
+from typing import Any
+
+from sqlalchemy import Connection, Engine, create_engine, event
+
+SCHEME = "sqlite:///"
+BUSY_MILLISECONDS = 10_000
+"""How long a writer waits for another *process* holding the database (a backup) before it gives up."""
+POOL_SIZE = 8
+POOL_OVERFLOW = 56
+"""Together more than the 40 threads that serve requests, so that nobody waits for a connection."""
+WRITING = {"pooliad_writes": True}
+"""Options of a connection that takes the writer's place with its first statement."""
+
+
+def engine(url: str) -> Engine:
+    """The connections of a file."""
+    made = create_engine(url, pool_size=POOL_SIZE, max_overflow=POOL_OVERFLOW)
+    event.listen(made, "connect", _set_pragmas)
+    event.listen(made, "begin", _begin)
+    return made
+
+
+def path_of(url: str) -> str:
+    """The file of a URL."""
+    return url.removeprefix(SCHEME)
+
+
+def _set_pragmas(connection: Any, _record: object) -> None:
+    connection.isolation_level = None  # the driver's own BEGIN comes too late for a compare-and-set
+    for pragma in (
+        f"busy_timeout = {BUSY_MILLISECONDS}",
+        "journal_mode = WAL",
+        "synchronous = FULL",
+        "foreign_keys = ON",
+    ):
+        connection.execute(f"PRAGMA {pragma}").close()
+
+
+def _begin(connection: Connection) -> None:
+    writes = connection.get_execution_options().get("pooliad_writes", False)
+    connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")

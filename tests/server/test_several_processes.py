@@ -1,0 +1,232 @@
+"""Several server processes on one PostgreSQL (docs/operations.md, "Several processes")."""
+
+import itertools
+import json
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import psycopg
+import pytest
+
+from referee.record import verify_record
+
+PROMPT = 1.0
+"""Seconds in which a hint arrives; without one a poll here looks again after 30."""
+
+
+@pytest.fixture(scope="module")
+def pair(postgres, new_running):
+    """Two servers on one database, for all tests that leave them running."""
+    database = postgres.new()
+    return tuple(new_running(database, POOLIAD_POLL_RECHECK="30") for _ in range(2))
+
+
+@pytest.fixture
+def own_pair(own_server):
+    """Two of the test's own."""
+    first = own_server()
+    return first, own_server(first.database_url)
+
+
+def at(server, table):
+    """The same match, its players at another server."""
+    for player in (*table.players, table.organiser):
+        player.server = server
+    return table
+
+
+def records(table):
+    match = table.organiser.get(f"/v1/matches/{table.match['id']}").json()
+    return [table.organiser.get(f"/v1/games/{game['id']}/record").text.splitlines() for game in match["played"]]
+
+
+def workers_of(server):
+    """The processes that serve below `--processes`."""
+    listing = subprocess.run(
+        ["ps", "-ww", "-o", "pid=,args=", "--ppid", str(server.process.pid)], capture_output=True, text=True, check=True
+    ).stdout
+    return [int(line.split()[0]) for line in listing.splitlines() if "spawn_main" in line]
+
+
+def test_a_match_is_played_through_both_in_turns(pair, table_at):
+    table = table_at(pair[0], noise={"level": 0.5})
+    servers = itertools.cycle(pair)
+    for stroke in range(8):
+        at(next(servers), table).play(1, seed=stroke)
+    mover, view = table.mover()
+    assert mover.post(f"/v1/games/{view['game']}/concede", version=view["version"]).status_code == 200
+    assert all(verify_record(lines).ok for lines in records(table))
+
+
+def test_a_stroke_here_wakes_a_poll_there(pair, table_at, break_shot):
+    here, there = pair
+    table = table_at(here)
+    mover, view = table.mover()
+    waiting = table.players[1 - view["seat"]]
+    waiting.server = there
+    with ThreadPoolExecutor(1) as pool:
+        poll = pool.submit(waiting.turn, 20)
+        time.sleep(0.5)
+        played = time.monotonic()
+        answer = mover.post(f"/v1/games/{view['game']}/concede", version=view["version"])
+        assert answer.status_code == 200, answer.text
+        assert poll.result()["type"] == "game_over"
+    assert time.monotonic() - played < PROMPT
+
+
+def test_a_lost_connection_of_the_hints_costs_time_and_nothing_else(own_server, table_at):
+    """The database ends the sessions that listen and send; polls look by themselves, and the relay comes back."""
+    first = own_server(POOLIAD_POLL_RECHECK="0.5")
+    second = own_server(first.database_url, POOLIAD_POLL_RECHECK="0.5")
+    table = table_at(first)
+    end = "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE query ~ 'LISTEN|synchronous_commit|pg_notify'"
+    with psycopg.connect(first.database_url, autocommit=True) as connection:
+        assert connection.execute(f"{end} AND pid <> pg_backend_pid()").rowcount >= 2
+    for stroke, server in zip(range(4), itertools.cycle((second, first)), strict=False):
+        at(server, table).play(1, seed=stroke)
+    assert "wake-ups between processes are interrupted" in first.log
+
+
+def test_one_of_two_is_killed_in_the_middle_and_the_match_goes_on_through_the_other(own_pair, table_at):
+    table = table_at(own_pair[0], noise={"level": 1.0})
+    answers = table.play(3, seed=0)
+    own_pair[0].stop(signal.SIGKILL)
+    at(own_pair[1], table)
+    answers += table.play(5, seed=1)
+    mover, view = table.mover()
+    answers.append(mover.post(f"/v1/games/{view['game']}/concede", version=view["version"]).json())
+    (lines,) = records(table)
+    assert verify_record(lines).ok
+    kept = [json.loads(line) for line in lines[1:-1]]
+    assert [line["entry"] for line in kept] == list(range(len(answers)))
+    assert [line["stroke"] for line in kept if line["stroke"] is not None] == [
+        answer["stroke"]["index"] for answer in answers if answer["stroke"]["shot"] is not None
+    ]
+
+
+def test_who_stays_keeps_the_clocks_of_running_turns(own_pair, table_at):
+    """A process that starts or leaves while another serves is no downtime: no turn is to be fetched anew."""
+    table = table_at(own_pair[0], clock={"seconds": 60})
+    _, view = table.mover()
+    own_pair[1].restart()
+    time.sleep(0.3)
+    clock = table.organiser.get(f"/v1/games/{view['game']}").json()["view"]["clocks"][view["seat"]]
+    assert clock["running"]
+    assert clock["seconds_left"] < 60
+
+
+def test_of_shots_at_both_at_once_one_is_played(pair, table_at, break_shot):
+    """The version is compared and set in the database, whichever process a request came to."""
+    table = table_at(pair[0])
+    mover, view = table.mover()
+    headers = {"If-Match": f'"{view["version"]}"'}
+
+    def shoot(number):
+        body = break_shot | {"cue_ball": [0.5 + 0.01 * number, 1.8]}
+        options = {"json": body, "headers": headers | {"Idempotency-Key": f"{number}"}}
+        return pair[number % 2].request("POST", f"/v1/games/{view['game']}/shots", mover.token, **options)
+
+    with ThreadPoolExecutor(8) as pool:
+        answers = list(pool.map(shoot, range(8)))
+    assert sorted(answer.status_code for answer in answers) == [200] + [412] * 7
+
+
+def test_the_same_request_at_both_at_once_is_carried_out_once(pair, table_at, break_shot):
+    table = table_at(pair[0])
+    mover, view = table.mover()
+    headers = {"If-Match": f'"{view["version"]}"', "Idempotency-Key": "twice"}
+    shots = f"/v1/games/{view['game']}/shots"
+    with ThreadPoolExecutor(8) as pool:
+        answers = list(
+            pool.map(
+                lambda n: pair[n % 2].request("POST", shots, mover.token, json=break_shot, headers=headers), range(8)
+            )
+        )
+    assert {answer.status_code for answer in answers} == {200}
+    assert len({answer.content for answer in answers}) == 1
+
+
+def test_the_same_match_asked_for_at_both_at_once_is_made_once(pair, table_at):
+    table = table_at(pair[0])
+    body = {"agents": [player.id for player in table.players], "games": 3}
+    headers = {"Idempotency-Key": "match"}
+    with ThreadPoolExecutor(8) as pool:
+        answers = list(
+            pool.map(
+                lambda n: pair[n % 2].request("POST", "/v1/matches", table.organiser.token, json=body, headers=headers),
+                range(8),
+            )
+        )
+    assert {answer.status_code for answer in answers} == {201}
+    assert len({answer.content for answer in answers}) == 1
+    assert len(table.organiser.get("/v1/matches", agent=body["agents"][0]).json()["matches"]) == 2
+
+
+def test_two_timers_let_a_flag_fall_once(own_server, table_at):
+    first = own_server(POOLIAD_FETCH_GRACE="0.2")
+    own_server(first.database_url, POOLIAD_FETCH_GRACE="0.2")
+    tables = [table_at(first, clock={"seconds": 1}) for _ in range(4)]
+    for table in tables:
+        for player in table.players:
+            news = [player.turn(20)["type"] for _ in range(2)]
+            while news[0] == "turn":  # the mover was asked before the time was out
+                news = [*news[1:], player.turn(20)["type"]]
+            assert news == ["game_over", "match_over"]
+            assert player.get("/v1/turns").status_code == 204
+
+
+def test_a_process_that_is_killed_is_replaced(own_server, table_at):
+    server = own_server(options=("--processes", "2"))
+    table = table_at(server)
+    table.play(2)
+    victims = workers_of(server)
+    assert len(victims) == 2
+    subprocess.run(["kill", "-9", str(victims[0])], check=True)
+    server.http.close()
+    server.http = type(server.http)(base_url=server.url, timeout=30)
+    table.play(2, seed=3)
+    end = time.monotonic() + 30
+    while len(present := workers_of(server)) < 2 or victims[0] in present:
+        assert time.monotonic() < end
+        time.sleep(0.2)
+    assert server.stop() == 0
+    assert "another takes its place" in server.log
+
+
+def test_processes_end_with_their_parent(own_server):
+    server = own_server(options=("--processes", "2"))
+    orphans = workers_of(server)
+    server.stop(signal.SIGKILL)
+    end = time.monotonic() + 30
+    while subprocess.run(["ps", "-p", ",".join(map(str, orphans))], stdout=subprocess.DEVNULL).returncode == 0:
+        assert time.monotonic() < end
+        time.sleep(0.2)
+
+
+@pytest.mark.parametrize("options", [(), ("--processes", "2")])
+def test_sqlite_is_for_one_process(tmp_path, options):
+    """A second server on the same file, or several processes, are refused in a sentence."""
+    command = [sys.executable, "-m", "server", "--port", "0", "--database", f"sqlite:///{tmp_path / 'one.db'}"]
+    first = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    try:
+        assert first.stdout is not None
+        assert "listening" in first.stdout.readline()
+        second = subprocess.run([*command, *options], capture_output=True, text=True, timeout=60)
+        assert second.returncode == 1
+        assert "postgresql://" in second.stderr
+        assert "Traceback" not in second.stderr
+        if not options:
+            assert f"({first.pid})" in second.stderr
+    finally:
+        first.kill()
+        first.wait()
+        assert first.stdout is not None
+        first.stdout.close()
+    third = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    with third.stdout:
+        assert "listening" in third.stdout.readline()  # the lock ended with the process
+        third.kill()
+        third.wait()
