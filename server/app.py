@@ -8,7 +8,7 @@ from importlib.metadata import version
 from fastapi import FastAPI
 from starlette.exceptions import HTTPException
 
-from server import openapi
+from server import failpoints, openapi
 from server.errors import ServerError, handle_fault, handle_framework_error, handle_server_error
 from server.routes import ROUTERS
 from server.security.body_gate import BodyGate
@@ -31,7 +31,7 @@ gets the stored answer. Errors are RFC 9457 problem details with a stable `code`
 
 def create_app(settings: Settings) -> FastAPI:
     """The server as an ASGI application; its database is opened and brought up to date when it starts."""
-    context = Context(settings, Database(settings.database))
+    context = Context(settings, Database(settings.database), failpoint=failpoints.parse(settings.failpoint))
     app = FastAPI(
         title="Pooliad",
         version=version("pooliad"),

@@ -24,7 +24,8 @@ class Settings:
     `organiser_digest` is the SHA-256 (hex) of the organiser's token, None when nobody organises; the token
     itself is never kept. `fetch_grace` is how long a turn may lie unfetched before its clock starts by
     itself. `house_bots` names the agents the server runs itself, `NAME` or `NAME=AGENT`, apart by `;`;
-    `house_places` is how many matches each of them plays at a time.
+    `house_places` is how many matches each of them plays at a time. `failpoint` is for tests of crashes
+    (`server.failpoints`).
     """
 
     database: str = "sqlite:///pooliad.db"
@@ -44,6 +45,7 @@ class Settings:
     drain_seconds: float = 5.0
     house_bots: str = ""
     house_places: int = 4
+    failpoint: str = ""
 
     def __post_init__(self) -> None:
         _require_database(self.database)

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 from sqlalchemy import Connection
 
 from referee.play import nanoseconds
+from server import failpoints
+from server.failpoints import Failpoint
 from server.services.presence import Presence
 from server.services.time import TimeSource
 from server.services.wakeups import Wakeups
@@ -23,6 +25,7 @@ class Context:
     Attributes:
         warm: set when the kernels are loaded; warm_up_failed: set when they could not be.
         in_hand: for each game the arrival times of the requests that are being worked on.
+        failpoint: told every step at which tests have the process killed.
     """
 
     settings: Settings
@@ -33,6 +36,7 @@ class Context:
     warm: threading.Event = field(default_factory=threading.Event)
     warm_up_failed: threading.Event = field(default_factory=threading.Event)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
+    failpoint: Failpoint = field(default_factory=lambda: failpoints.parse(""))
 
     @property
     def fetch_grace(self) -> int:

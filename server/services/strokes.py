@@ -56,7 +56,9 @@ def _act(context: Context, game_id: str, command: Command, read: Callable[[], _A
         if stored := recall(connection, command):
             return stored
         _require_turn(connection, live, seat, command)
+    context.failpoint("shot-admitted")
     asked, stroke = _played(live, read)
+    context.failpoint("shot-simulated")
     with context.writing() as writing:
         live = hold(writing.connection, game_id)
         if stored := recall(writing.connection, command):
@@ -66,7 +68,10 @@ def _act(context: Context, game_id: str, command: Command, read: Callable[[], _A
         end = games.TurnEnd(live.charge_of_action(command.arrived), games.next_move(live), asked.simulated)
         answer = _stored(writing, live, stroke, end)
         keep(writing.connection, command, answer)
+        context.failpoint("shot-kept")
+    context.failpoint("shot-committed")
     context.wakeups.notify(live.agents)
+    context.failpoint("shot-woken")
     return answer
 
 
@@ -142,7 +147,9 @@ def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd
         "line": canonical(stroke_entry(stroke, number, end.charge.charged_ns)),
     }
     writing.connection.execute(insert(moves).values(move | {"created_at": writing.now}))
+    writing.context.failpoint("shot-moved")
     live = games.advance(writing, live, stroke.game, end)
+    writing.context.failpoint("shot-advanced")
     view = live.view(writing.connection, stroke.seat, writing.now)
     message = StrokeAnswer(game=live.id, stroke=detail, view=view, clocks=view.clocks)
     return Answer.of(200, message, etag=f'"{live.row.version}"')

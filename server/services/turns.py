@@ -33,6 +33,7 @@ async def wait_for_message(
         while not context.wakeups.draining.is_set() and not await is_gone():
             hint.clear()
             if (message := await run_in_threadpool(next_message, context, agent)) is not None:
+                context.failpoint("turn-committed")
                 return message
             left = end - loop.time()
             if left <= 0:
@@ -66,7 +67,9 @@ def next_message(context: Context, agent: str) -> bytes | None:
             return None
         hold_match_of(connection, turn.id)
         turn = _waiting_turn(connection, agent, now, turn.id)  # as it is now that nobody else changes it
-        return None if turn is None else _delivered(connection, turn, agent, now)
+        message = None if turn is None else _delivered(connection, turn, agent, now)
+        context.failpoint("turn-delivered")
+        return message
 
 
 def _news(connection: Connection, agent: str) -> Row[Any] | None:

@@ -21,6 +21,7 @@ from support.postgres import Cluster, cluster
 BOTH = ("sqlite", "postgresql")
 DATABASES = {
     "test_agents": BOTH,
+    "test_crashes": ("sqlite", pytest.param("postgresql", marks=pytest.mark.long)),
     "test_exactly_once": BOTH,
     "test_long_poll": BOTH,
     "test_matches": BOTH,
@@ -41,8 +42,10 @@ class Running:
 
     def __init__(self, folder: Path, url: str, environment: dict[str, str], *options: str) -> None:
         self.database_url = url
-        self._environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER_TOKEN} | environment
+        self.environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER_TOKEN} | environment
         self._options = options
+        self.port = 0
+        """A free one at first; a restart listens where clients know it."""
         self._log_file = folder / f"server{next(_names)}.log"
         self._log = self._log_file.open("ab")
         self.start()
@@ -54,9 +57,18 @@ class Running:
         return Path(self.database_url.removeprefix("sqlite:///"))
 
     def start(self) -> None:
-        command = [sys.executable, "-m", "server", "--port", "0", "--database", self.database_url, *self._options]
+        command = [
+            sys.executable,
+            "-m",
+            "server",
+            "--port",
+            str(self.port),
+            "--database",
+            self.database_url,
+            *self._options,
+        ]
         self.process = subprocess.Popen(
-            command, env=self._environment, stdout=subprocess.PIPE, stderr=self._log, text=True
+            command, env=self.environment, stdout=subprocess.PIPE, stderr=self._log, text=True
         )
         assert self.process.stdout is not None
         line = self.process.stdout.readline()
@@ -66,6 +78,7 @@ class Running:
         announced = json.loads(line)
         assert announced["event"] == "listening"
         self.url = announced["url"]
+        self.port = int(self.url.rpartition(":")[2])
         self.http = httpx2.Client(base_url=self.url, timeout=PATIENCE)
 
     def stop(self, number: int = signal.SIGTERM) -> int:
@@ -299,6 +312,12 @@ def table_at() -> Callable[..., Table]:
 def player_at() -> Callable[[Running], Player]:
     """A fresh agent at a server of the test's own."""
     return register
+
+
+@pytest.fixture(scope="session")
+def script() -> Callable[..., dict[str, Any]]:
+    """What somebody plays who has a view and a source of chance."""
+    return scripted
 
 
 @pytest.fixture
