@@ -35,6 +35,9 @@ class Agent(ABC):
     def game_started(self, view: View) -> None:  # noqa: B027 - a hook: doing nothing is the right default
         """Called once before the first `choose` of a game."""
 
+    def refused(self, view: View, reason: str) -> None:  # noqa: B027 - a hook: doing nothing is the right default
+        """Called when an action was not accepted, before `choose` is asked again; the clock runs on."""
+
     def game_over(self, over: GameOver) -> None:  # noqa: B027 - a hook: doing nothing is the right default
         """Called once when the game has ended, if this agent ever was at the table in it."""
 

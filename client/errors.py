@@ -6,6 +6,7 @@
     ├── ConnectionFailed        no answer: refused, reset, timed out
     ├── UnexpectedAnswer        an answer that is not of this protocol
     ├── AgentNotFound           no agent of this name, no such import path
+    ├── AgentFailed             the command of an agent left, was silent, or answered nonsense
     └── ApiError                the server answered with a problem
         ├── BadRequest          400
         │   ├── NotJson
@@ -78,6 +79,10 @@ class UnexpectedAnswer(PooliadError):
 
 class AgentNotFound(PooliadError):
     """The name or the import path of an agent leads nowhere."""
+
+
+class AgentFailed(PooliadError):
+    """The command of an agent cannot be started, left, gave no answer in time, or answered nonsense."""
 
 
 class ApiError(PooliadError):

@@ -11,7 +11,7 @@ from client.players import log
 from client.simulator import Simulator
 from physics import Table
 from referee import Action, EightBall, Game, Phase, SimulationBudget
-from referee.play import Budgets, MatchSeed, NoiseModel, Stroke
+from referee.play import Budgets, MatchSeed, NoiseModel, Refused, Stroke
 from referee.play.local import BadAction, PlayedGame, Watch, play_match, points_of
 from referee.wire import GameOver, GameTerms, OutcomeView, View
 
@@ -76,7 +76,7 @@ def play(
     seed = secrets.randbelow(2**32) if seed is None else seed
     hall = _Hall((factory_of(agent_a, seed), factory_of(agent_b, seed)))
     players = titles(_name(agent_a), _name(agent_b))
-    watch = Watch(on_stroke=on_stroke or _ignore, on_refusal=_log_bad_action)
+    watch = Watch(on_stroke=on_stroke or _ignore, on_refusal=hall.refused)
     rules, model = EightBall(table or Table.olympiad()), NoiseModel(noise)
     match = play_match(
         rules,
@@ -113,6 +113,15 @@ class _Chair:
         self._last = view
         return self._agent.choose(view)
 
+    def refused(self, bad: BadAction) -> None:
+        """Tell the agent why its action was not accepted; what it raised itself it knows."""
+        if self._agent is None or self._last is None or not isinstance(bad.reason, Refused):
+            return
+        try:
+            self._agent.refused(self._last, str(bad.reason))
+        except Exception:
+            log.exception("game %s: refused raised", self._last.game)
+
     def finish(self, game: PlayedGame, score: tuple[float, float]) -> None:
         """Tell an agent that has been at the table how the game ended."""
         if self._agent is None or self._last is None:
@@ -134,6 +143,11 @@ class _Hall:
         """The choosers for the next game, each simulating on its budget."""
         self._chairs = _Chair(0, self._factories[0], budget[0]), _Chair(1, self._factories[1], budget[1])
         return self._chairs
+
+    def refused(self, bad: BadAction) -> None:
+        """Log a bad action, and tell the player."""
+        _log_bad_action(bad)
+        self._chairs[bad.seat].refused(bad)
 
     def finished(self, game: PlayedGame) -> PlayedGame:
         """Count a game, and tell both players of it."""

@@ -70,8 +70,12 @@ class Players:
         self._by_honour[game].declared += shots
 
     def refused(self, view: View, reason: object) -> None:
-        """Log why an action was not accepted."""
+        """Log why an action was not accepted, and tell the instance."""
         log.error("game %s, stroke %d: refused: %s", view.game, view.stroke, reason)
+        try:
+            self._of(view).refused(view, str(reason))
+        except Exception:
+            log.exception("game %s: refused raised", view.game)
 
     def game_over(self, over: GameOver) -> None:
         """Tell the instance of this game that it has ended, and forget it; without a turn there is none."""

@@ -1,7 +1,10 @@
-"""Agents by name: the shipped ones, and anybody's as `module:Class`."""
+"""Agents by name: the shipped ones, anybody's as `module:Class`, and in any language as `stdio:COMMAND`."""
 
 import importlib
+import re
+import shlex
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from client.agent import Agent, AgentFactory
@@ -16,7 +19,10 @@ SHIPPED = {
 
 
 Player = AgentFactory | str
-"""An `Agent` class, a function that makes agents, or a name: `random`, `search:seconds=0.3`, `module:Class`."""
+"""An `Agent` class, a function that makes agents, or a name: `search:seconds=0.3`, `module:Class`, `stdio:COMMAND`."""
+
+STDIO = "stdio:"
+"""What the name of an agent starts with that is a command: `stdio:perl my_agent.pl`, split as a shell does."""
 
 
 def factory_of(player: Player, seed: int | None = None) -> AgentFactory:
@@ -28,8 +34,8 @@ def load(name: str, seed: int | None = None) -> AgentFactory:
     """A function that makes instances of the agent called `name`.
 
     Args:
-        name: of a shipped agent, with options if it has any (`search:seconds=0.3,lookahead=off`), or `module:Class`
-            with the module on the import path.
+        name: of a shipped agent, with options if it has any (`search:seconds=0.3,lookahead=off`), `module:Class`
+            with the module on the import path, or `stdio:COMMAND`.
         seed: makes a shipped agent repeat its choices; other agents keep their own randomness.
 
     Raises:
@@ -38,6 +44,8 @@ def load(name: str, seed: int | None = None) -> AgentFactory:
     shipped, _, options = name.partition(":")
     if shipped in SHIPPED:
         return _with_options(name, partial(_class_at(SHIPPED[shipped]), seed=seed, **_options(name, options)))
+    if name.startswith(STDIO):
+        return _command(name)
     factory: AgentFactory = _class_at(name)
     return factory
 
@@ -49,8 +57,12 @@ def titles(first: str, second: str) -> tuple[str, str]:
 
 
 def _title(name: str) -> str:
-    """A shipped agent's name with its options, another's class name."""
-    return name if name.partition(":")[0] in SHIPPED else name.rpartition(":")[2]
+    """A shipped agent's name with its options, another's class, a command's last word that is no option."""
+    if not name.startswith(STDIO):
+        return name if name.partition(":")[0] in SHIPPED else name.rpartition(":")[2]
+    words = [word for word in name.removeprefix(STDIO).split() if not word.startswith("-")]
+    title = re.sub(r"[^A-Za-z0-9 _.-]", "-", Path(words[-1]).name if words else "").lstrip(" _.-")
+    return title[:60] or "command"
 
 
 def _options(name: str, text: str) -> dict[str, bool | int | float | str]:
@@ -83,11 +95,26 @@ def _with_options(name: str, factory: AgentFactory) -> AgentFactory:
     return factory
 
 
+def _command(name: str) -> AgentFactory:
+    """What starts a command for every game."""
+    from client.adapters.stdio import StdioAgent
+
+    try:
+        command = shlex.split(name.removeprefix(STDIO))
+    except ValueError as error:
+        raise AgentNotFound(f"agent {name!r} is no command: {error}") from None
+    if not command:
+        raise AgentNotFound(f"agent {name!r} names no command; it goes like stdio:perl my_agent.pl")
+    return partial(StdioAgent, command)
+
+
 def _class_at(path: str) -> Any:
     """The agent class at an import path."""
     module, _, attribute = path.partition(":")
     if not module or not attribute:
-        raise AgentNotFound(f"there is no agent {path!r}; shipped are {sorted(SHIPPED)}, others go by module:Class")
+        raise AgentNotFound(
+            f"there is no agent {path!r}; shipped are {sorted(SHIPPED)}, others are module:Class or stdio:COMMAND"
+        )
     try:
         found = getattr(importlib.import_module(module), attribute)
     except (ImportError, AttributeError) as error:
