@@ -34,6 +34,7 @@ class LineProcess:
         self._command = list(command)
         self._errors = errors
         self._pending = b""
+        self._begun_unasked = False
         try:
             with errors.open("ab") as sink:
                 self._process = subprocess.Popen(
@@ -75,16 +76,22 @@ class LineProcess:
             if len(self._pending) > LONGEST_LINE:
                 raise AgentFailed(f"{self._command} wrote a line of more than {LONGEST_LINE} bytes")
         line, _, self._pending = self._pending.partition(b"\n")
+        if self._begun_unasked:
+            self._begun_unasked = False
+            return self.receive(deadline)
         return line.decode(errors="replace")
 
     def unasked(self) -> list[str]:
-        """The lines it has written that nobody has read; they are gone then."""
+        """The lines it has written that nobody has read; they are gone then, and so is one it has only begun."""
         while len(self._pending) <= LONGEST_LINE and self._is_ready(self._from, select.POLLIN, 0.0):
             chunk = os.read(self._from, 65536)
             if not chunk:
                 break
             self._pending += chunk
         *lines, self._pending = self._pending.split(b"\n")
+        if self._pending:
+            self._begun_unasked = True
+            lines.append(self._pending)
         return [line.decode(errors="replace") for line in lines]
 
     def stop(self) -> None:
