@@ -89,9 +89,21 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
 
 
 def listening(host: str, port: int) -> socket.socket:
-    """A socket that listens at this address."""
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    return socket.create_server((host, port), family=family, backlog=BACKLOG)
+    """A socket that listens at this address.
+
+    asyncio turns Nagle's algorithm off (an answer of two packets would wait 40 ms for an acknowledgement) only where
+    the socket itself says that it is TCP, which one of `socket.create_server` does not.
+    """
+    place = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
+    made = socket.socket(place[0], socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        made.bind(place[4])
+    except OSError:
+        made.close()
+        raise
+    made.listen(BACKLOG)
+    return made
 
 
 def announce(server_socket: socket.socket) -> None:

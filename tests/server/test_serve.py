@@ -15,6 +15,7 @@ from alembic.runtime.migration import MigrationContext
 import physics
 from server.errors import Draining, SettingsError
 from server.routes.health import readyz
+from server.serve import listening
 from server.services import warmup
 from server.services.context import Context
 from server.settings import Settings
@@ -165,3 +166,12 @@ def test_kernels_that_cannot_be_loaded_are_logged_and_reported(tmp_path, monkeyp
     with pytest.raises(Draining, match="could not be loaded"):
         readyz(context)
     context.database.dispose()
+
+
+def test_answers_do_not_wait_for_acknowledgements():
+    """asyncio turns Nagle's algorithm off on sockets that say they are TCP.
+
+    Seen on one that did not: 40 ms for every answer of two packets.
+    """
+    with listening("127.0.0.1", 0) as made:
+        assert made.proto == socket.IPPROTO_TCP

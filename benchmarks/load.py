@@ -1,0 +1,201 @@
+"""Shots a second through real HTTP at 1 to 500 concurrent games, next to a bare endpoint on the same stack.
+
+Every game is played from its answers: a stroke is sent as soon as the one before is answered, whoever's turn it is. The
+bare endpoint (`benchmarks.bare_endpoint`) does nothing but one transaction of as many bytes, flushed as the server's
+are, and answers as many bytes; it gets requests of the same size from the same client. So what differs is what
+the server does about a shot: token, repetition, version, clocks, rules, physics, record and view.
+"""
+
+import asyncio
+import contextlib
+import json
+import os
+import secrets
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import AsyncIterator, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.command import main
+from benchmarks.load_client import Connection, Reply
+from benchmarks.load_games import Player, begin, next_request
+from benchmarks.recording import Row, Tables
+
+GAMES = (1, 10, 100, 500)
+ORGANISER = secrets.token_hex(32)
+
+
+def measure(full: bool) -> Tables:
+    """Each number of games on the server, then on the bare endpoint with the bytes that the server was seen to move."""
+    seconds = 15.0 if full else 3.0
+    rows = [row for games in GAMES for row in asyncio.run(compare(games, seconds))]
+    return {"shots": rows}
+
+
+async def compare(games: int, seconds: float) -> list[Row]:
+    """The server's row and the bare endpoint's."""
+    with tempfile.TemporaryDirectory() as folder:
+        database = Path(folder) / "pooliad.db"
+        with serving("server", "--database", f"sqlite:///{database}") as port:
+            await ready(port)
+            played = await play(port, games, seconds)
+        size = stored_bytes(database) // max(1, played.shots)
+    answer, request = int(np.mean(played.answered)), int(np.mean(played.sent))
+    with tempfile.TemporaryDirectory() as folder:
+        options = ("--answer", str(answer), "--store", str(size), "--database", f"{folder}/bare.db")
+        with serving("benchmarks.bare_endpoint", *options) as port:
+            bare = await hammer(port, games, seconds, request)
+    shares = {"of_bare": played.rate / bare.rate}
+    sizes = {"answer_bytes": answer, "stored_bytes": size}
+    return [played.row("server", games) | shares | sizes, bare.row("bare endpoint", games) | {"of_bare": 1.0} | sizes]
+
+
+class Tally:
+    """What a run saw after its warm-up."""
+
+    def __init__(self, seconds: float) -> None:
+        self.begins = time.perf_counter() + min(3.0, seconds / 3)
+        self.ends = self.begins + seconds
+        self.seconds = seconds
+        self.shots = 0
+        """All, those of the warm-up too."""
+        self.latencies: list[float] = []
+        self.answered: list[int] = []
+        self.sent: list[int] = []
+        self.refused = 0
+
+    @property
+    def is_over(self) -> bool:
+        """Whether to stop."""
+        return time.perf_counter() >= self.ends
+
+    def add(self, started: float, sent: int, reply: Reply) -> None:
+        """Count an answer."""
+        now = time.perf_counter()
+        if reply.status != 200:
+            self.refused += 1
+            return
+        self.shots += 1
+        if self.begins <= now < self.ends:
+            self.latencies.append(now - started)
+            self.answered.append(len(reply.body))
+            self.sent.append(sent)
+
+    @property
+    def rate(self) -> float:
+        """Shots a second."""
+        return len(self.latencies) / self.seconds
+
+    def row(self, what: str, games: int) -> Row:
+        """The figures."""
+        p50, p99 = np.quantile(self.latencies, (0.5, 0.99))
+        return {
+            "what": what,
+            "games": games,
+            "shots_a_second": round(self.rate, 1),
+            "p50_ms": round(1e3 * float(p50), 2),
+            "p99_ms": round(1e3 * float(p99), 2),
+            "shots": len(self.latencies),
+            "refused": self.refused,
+        }
+
+
+async def play(port: int, games: int, seconds: float) -> Tally:
+    """Play so many games at once."""
+    async with connections(port, games) as wires:
+        tables = [await begin(wire, number, ORGANISER) for number, wire in enumerate(wires)]
+        tally = Tally(seconds)
+        await asyncio.gather(*(play_one(wire, table, tally) for wire, table in zip(wires, tables, strict=True)))
+    return tally
+
+
+async def play_one(wire: Connection, players: tuple[Player, Player], tally: Tally) -> None:
+    """One match, stroke after stroke."""
+    view: dict[str, Any] | None = None
+    while not tally.is_over:
+        if view is None or view["turn"] is None:
+            view = await current_view(wire, players)
+        request, body = next_request(view, players, tally.refused)
+        started = time.perf_counter()
+        reply = await wire.send(request, body)
+        tally.add(started, len(request) + len(body), reply)
+        view = json.loads(reply.body)["view"] if reply.status == 200 else None
+
+
+async def current_view(wire: Connection, players: tuple[Player, Player]) -> dict[str, Any]:
+    """The view of the game that is being played."""
+    match = json.loads((await wire.get(f"/v1/matches/{players[0].match}")).body)
+    return dict(json.loads((await wire.get(f"/v1/games/{match['played'][-1]['id']}")).body)["view"])
+
+
+async def hammer(port: int, games: int, seconds: float, size: int) -> Tally:
+    """As many connections at the bare endpoint."""
+    body = json.dumps({"shot": "x" * max(0, size - 200)}).encode()
+    request = Connection.request("POST", "/shot", length=len(body), headers=f"Authorization: Bearer {'x' * 40}\r\n")
+    async with connections(port, games) as wires:
+        tally = Tally(seconds)
+
+        async def one(wire: Connection) -> None:
+            while not tally.is_over:
+                started = time.perf_counter()
+                reply = await wire.send(request, body)
+                tally.add(started, len(request) + len(body), reply)
+                json.loads(reply.body)
+
+        await asyncio.gather(*(one(wire) for wire in wires))
+    return tally
+
+
+@contextlib.asynccontextmanager
+async def connections(port: int, count: int) -> AsyncIterator[list[Connection]]:
+    """Open so many."""
+    made = [await Connection.open(port) for _ in range(count)]
+    try:
+        yield made
+    finally:
+        for wire in made:
+            wire.close()
+
+
+@contextlib.contextmanager
+def serving(module: str, *options: str) -> Iterator[int]:
+    """A server as a process; its port."""
+    environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER}
+    command = [sys.executable, "-m", module, "--port", "0", *options]
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            yield int(json.loads(process.stdout.readline())["url"].rpartition(":")[2])
+        finally:
+            process.terminate()
+
+
+async def ready(port: int) -> None:
+    """Wait until the kernels are loaded."""
+    async with connections(port, 1) as (wire,):
+        while (await wire.get("/readyz")).status != 200:
+            await asyncio.sleep(0.1)
+
+
+def stored_bytes(database: Path) -> int:
+    """What the shots left in the database: the file with its log folded in."""
+    import sqlite3
+
+    with contextlib.closing(sqlite3.connect(database)) as connection:
+        columns = {"moves": ("stroke", "line"), "answers": ("body", "headers", "route", "key", "request_digest")}
+        total = 0
+        for table, names in columns.items():
+            for name in names:
+                total += connection.execute(f"SELECT coalesce(sum(length({name})), 0) FROM {table}").fetchone()[0]
+        state = connection.execute("SELECT avg(length(state)) FROM games").fetchone()[0]
+        moves = connection.execute("SELECT count(*) FROM moves").fetchone()[0]
+        return int(total + state * moves)
+
+
+if __name__ == "__main__":
+    main("load", measure)
