@@ -1,7 +1,7 @@
 """The bare endpoint: one transaction of so many bytes, flushed to disk, then an answer of so many bytes.
 
-FastAPI, uvicorn and SQLite as the server has them (WAL, synchronous=FULL, one writer, one process), without anything else:
-the statement goes to the driver itself.
+FastAPI, uvicorn and SQLite as the server has them (WAL, synchronous=FULL, one writer, one process), and nothing
+else: the statement goes to the driver itself.
 """
 
 import argparse

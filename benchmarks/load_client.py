@@ -1,4 +1,4 @@
-"""A small HTTP/1.1 client: with hundreds of games on the machine that also serves, a library's would be what is measured."""
+"""A small HTTP/1.1 client: on the machine that also serves, a library's would be a good part of what is measured."""
 
 import asyncio
 import json
