@@ -1,0 +1,42 @@
+"""From a game's record to what standings and statistics need of it."""
+
+from collections import Counter
+from collections.abc import Sequence
+
+from referee.game import Outcome
+from referee.play.clock import SECOND_NS
+from referee.record import Record
+from tournament import Due, GameResult
+
+
+def result_of(record: Record, due: Due, simulated: Sequence[int] = (0, 0), place: str = "") -> GameResult:
+    """The result of a finished game.
+
+    Args:
+        record: of the game. due: which game of the event it is.
+        simulated: shots simulated, by seat; no record holds them.
+        place: where the record is; in an event's own directory unless given.
+    """
+    outcome = Outcome.from_dict(record.end["outcome"])
+    strokes, fouls, charged = [0, 0], (Counter[str](), Counter[str]()), list(record.end["elapsed_ns"])
+    for entry in record.entries:
+        seat = entry["seat"]
+        strokes[seat] += entry["stroke"] is not None
+        fouls[seat].update(entry["ruling"]["fouls"])
+        charged[seat] += entry["elapsed_ns"] or 0
+    return GameResult(
+        pair=due.pair.id,
+        leg=due.leg,
+        players=due.pair.players,
+        breaker=due.breaker,
+        winner=outcome.winner,
+        reason=outcome.reason,
+        rule=outcome.rule,
+        noise=due.pair.noise,
+        strokes=(strokes[0], strokes[1]),
+        seconds=(charged[0] / SECOND_NS, charged[1] / SECOND_NS),
+        simulated=(simulated[0], simulated[1]),
+        fouls=(dict(sorted(fouls[0].items())), dict(sorted(fouls[1].items()))),
+        record=place or f"games/{due.id}.jsonl",
+        attempt=due.attempt,
+    )

@@ -1,0 +1,96 @@
+"""A Python agent as a process: ``python -m client.arena.serving NAME [--seed N] [--options JSON]``.
+
+Reads the messages of ``GET /v1/turns`` from standard input, a JSON line each. A ``turn`` is answered with a line on
+standard output: the action, and beside it ``simulated``, the shots simulated in this game so far. What the agent
+prints goes to standard error, so that it cannot be taken for an answer.
+"""
+
+import argparse
+import json
+import os
+import sys
+import traceback
+from functools import partial
+from typing import Any, BinaryIO
+
+from client.agent import Agent, AgentFactory
+from client.agents.registry import load
+from client.simulator import Simulator
+from referee import Action, SimulationBudget
+from referee.wire import TURN_MESSAGE, GameOver, Turn
+
+
+def main() -> None:
+    """Serve until standard input ends."""
+    options = _parser().parse_args()
+    answers = _private_output()
+    factory = partial(load(options.name, options.seed), **json.loads(options.options))
+    server = _Server(factory)
+    for line in sys.stdin.buffer:
+        answer = server.answer(line)
+        if answer is not None:
+            answers.write(json.dumps(answer).encode() + b"\n")
+            answers.flush()
+
+
+class _Server:
+    """An agent's instances, one a game."""
+
+    def __init__(self, factory: AgentFactory) -> None:
+        self._factory = factory
+        self._agents: dict[str, Agent] = {}
+
+    def answer(self, line: bytes) -> dict[str, Any] | None:
+        """What a line is answered with; None when nothing is expected."""
+        message = TURN_MESSAGE.validate_json(line)
+        if isinstance(message, Turn):
+            return self._turn(message)
+        if isinstance(message, GameOver):
+            self._over(message)
+        return None
+
+    def _turn(self, turn: Turn) -> dict[str, Any]:
+        try:
+            agent = self._of(turn)
+            action = agent.choose(turn.view)
+            if not isinstance(action, Action):
+                raise TypeError(f"choose returned {action!r}, which is no client.Action")
+        except Exception as error:
+            traceback.print_exc()
+            return {"error": f"{type(error).__name__}: {error}"}
+        return action.to_dict() | {"simulated": agent.simulator.budget.used}
+
+    def _of(self, turn: Turn) -> Agent:
+        if turn.game not in self._agents:
+            agent = self._factory()
+            agent.simulator = Simulator(SimulationBudget(turn.view.budget and turn.view.budget.simulations))
+            agent.game_started(turn.view)
+            self._agents[turn.game] = agent
+        return self._agents[turn.game]
+
+    def _over(self, over: GameOver) -> None:
+        agent = self._agents.pop(over.game, None)
+        try:
+            if agent is not None:
+                agent.game_over(over)
+        except Exception:
+            traceback.print_exc()
+
+
+def _private_output() -> BinaryIO:
+    """Standard output for answers alone; everything else that is printed goes to standard error."""
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    return answers
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m client.arena.serving", description="Serve an agent line by line.")
+    parser.add_argument("name", help="of a shipped agent, or module:Class")
+    parser.add_argument("--seed", type=int, help="makes a shipped agent repeat its choices")
+    parser.add_argument("--options", default="{}", help="keyword arguments for the class, as a JSON object")
+    return parser
+
+
+if __name__ == "__main__":
+    main()
