@@ -127,7 +127,7 @@ class _Chair:
         if self._agent is None or self._last is None:
             return
         try:
-            self._agent.game_over(_game_over(game, self._seat, self._last, score))
+            self._agent.game_over(over_message(game, self._seat, self._last, score))
         except Exception:
             log.exception("game %s: game_over raised", game.header.game)
 
@@ -163,8 +163,8 @@ def _name(player: Player) -> str:
     return player if isinstance(player, str) else getattr(player, "__name__", "agent")
 
 
-def _game_over(game: PlayedGame, seat: int, last: View, score: tuple[float, float]) -> GameOver:
-    """What a server would tell the player of this seat at the end of the game."""
+def over_message(game: PlayedGame, seat: int, last: View, score: tuple[float, float]) -> GameOver:
+    """What a server would tell the player of this seat at the end of the game; ``last`` is the view it saw last."""
     header, outcome, strokes = game.header, game.outcome, game.strokes
     terms = GameTerms.model_construct(**{name: getattr(last, name) for name in GameTerms.model_fields})
     after = strokes[-1].game if strokes else header.start

@@ -27,7 +27,6 @@ class EventDirectory:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.journal = Journal(path / JOURNAL)
 
     @classmethod
     def create(cls, path: Path, terms: dict[str, Any]) -> "EventDirectory":
@@ -54,6 +53,11 @@ class EventDirectory:
         if not (path / TERMS).is_file():
             raise EventError(f"{path} holds no event: {TERMS} is missing")
         return cls(path)
+
+    @property
+    def journal(self) -> Journal:
+        """The journal, read from its beginning."""
+        return Journal(self.path / JOURNAL)
 
     @property
     def games(self) -> Path:

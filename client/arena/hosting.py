@@ -122,17 +122,17 @@ def _check_numbers(hosting: Hosting) -> None:
 
 
 def _check_mappings(hosting: Hosting) -> None:
-    if not isinstance(hosting.agent, str) or not hosting.agent.strip():
+    if not hosting.agent.strip():
         _fail("agent", hosting.agent, "a name, module:Class, remote or a command")
     try:
         shlex.split(hosting.agent)
     except ValueError as error:
         _fail("agent", hosting.agent, f"a command as a shell would read it ({error})")
-    if not isinstance(hosting.options, Mapping):
-        _fail("options", hosting.options, "a table")
-    variables = hosting.environment
-    if not isinstance(variables, Mapping) or not all(isinstance(each, str) for each in variables.values()):
-        _fail("environment", variables, "a table of texts")
+    for name in ("options", "environment"):
+        if not isinstance(getattr(hosting, name), Mapping):
+            _fail(name, getattr(hosting, name), "a table")
+    if not all(isinstance(each, str) for each in hosting.environment.values()):
+        _fail("environment", dict(hosting.environment), "a table of texts")
 
 
 def _fail(name: str, value: Any, allowed: str) -> None:

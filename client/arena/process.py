@@ -126,12 +126,14 @@ class ProcessSeat:
     def _drop_stale(self, process: subprocess.Popen[bytes]) -> None:
         """Throw away what it said unasked: it must not pass for the answer to this turn."""
         assert process.stdout is not None
-        said = self._unread
-        while (more := process.stdout.read(LONGEST_ANSWER)) is not None and more:
-            said = more
+        said, self._unread = self._unread, b""
+        while more := process.stdout.read(LONGEST_ANSWER):
+            said += more
+            if len(said) > LONGEST_ANSWER:
+                self._stop(f"said more than {LONGEST_ANSWER} bytes without being asked and was stopped")
+                raise Lost(EndReason.FORFEIT)
         if said:
             self._tell(f"said {said[:60]!r} without being asked")
-        self._unread = b""
 
     def _send(self, process: subprocess.Popen[bytes], data: bytes, end: float) -> None:
         assert process.stdin is not None

@@ -23,6 +23,7 @@ from referee.wire import TURN_MESSAGE, GameOver, Turn
 def main() -> None:
     """Serve until standard input ends."""
     options = _parser().parse_args()
+    find_here()
     answers = _private_output()
     factory = partial(load(options.name, options.seed), **json.loads(options.options))
     server = _Server(factory)
@@ -63,7 +64,7 @@ class _Server:
     def _of(self, turn: Turn) -> Agent:
         if turn.game not in self._agents:
             agent = self._factory()
-            agent.simulator = Simulator(SimulationBudget(turn.view.budget and turn.view.budget.simulations))
+            agent.simulator = Simulator(SimulationBudget(turn.view.budget.simulations if turn.view.budget else None))
             agent.game_started(turn.view)
             self._agents[turn.game] = agent
         return self._agents[turn.game]
@@ -75,6 +76,13 @@ class _Server:
                 agent.game_over(over)
         except Exception:
             traceback.print_exc()
+
+
+def find_here() -> None:
+    """Find modules in the current directory too, but last: none may stand in for an installed one."""
+    here = os.getcwd()  # noqa: PTH109 - as text, for the import system
+    if here not in sys.path:
+        sys.path.append(here)
 
 
 def _private_output() -> BinaryIO:

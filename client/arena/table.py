@@ -1,6 +1,8 @@
 """One game of an event: played to its end, its record on disk line by line, taken up where it was broken off."""
 
+import contextlib
 import fcntl
+import json
 import os
 import time
 from collections import deque
@@ -23,6 +25,8 @@ from referee.record.canonical import canonical, parse
 from referee.wire import View
 from tournament import Due, GameResult
 
+RESULT = ".result.json"
+"""Beside a record: its game's result, with the simulated shots, which no record holds."""
 LONGEST_REPORT = 500
 """Letters of a report: enough for a message, too few for what a broken agent may print."""
 
@@ -73,9 +77,9 @@ def play(task: GameTask, seats: tuple[Seat, Seat], folder: Path | None, tell: Te
         fcntl.flock(lock, fcntl.LOCK_EX)
         final = folder / f"{task.due.id}.jsonl"
         if final.exists():
-            text = final.read_text(encoding="utf-8")
-            return result_of(read_record(text.splitlines()), task.due), text
-        found = _played(task, seats, _Notes(folder / f"{task.due.id}.part"), tell)
+            return _recovered(final, task.due), final.read_text(encoding="utf-8")
+        with contextlib.closing(_Notes(folder / f"{task.due.id}.part")) as notes:
+            found = _played(task, seats, notes, tell)
         Path(lock.name).unlink()
         return found
 
@@ -91,9 +95,18 @@ def _played(task: GameTask, seats: tuple[Seat, Seat], notes: "_Notes | None", te
         game = _Game(task, seats, notes, tell)
         played = game.play()
     text = "".join(f"{line}\n" for line in (*game.lines, played.last_line()))
+    result = result_of(read_record(text.splitlines()), task.due, played.simulated)
     if notes is not None:
-        notes.finish(text)
-    return result_of(read_record(text.splitlines()), task.due, played.simulated), text
+        notes.finish(text, result)
+    return result, text
+
+
+def _recovered(record: Path, due: Due) -> GameResult:
+    """The result of a game that is over: as it was kept, or from the record if a power cut took that."""
+    try:
+        return GameResult.from_dict(json.loads(record.with_suffix(RESULT).read_text(encoding="utf-8")))
+    except (OSError, ValueError):
+        return result_of(read_record(record), due)
 
 
 class _Notes:
@@ -123,9 +136,10 @@ class _Notes:
         file.write(text.encode())
         file.flush()
 
-    def finish(self, record: str) -> None:
-        """The game is over: put the whole record in its place, on the disk."""
-        self._close()
+    def finish(self, record: str, result: GameResult) -> None:
+        """The game is over: put result and record in their places, the record on the disk."""
+        self.close()
+        self._path.with_suffix(RESULT).write_text(json.dumps(result.to_dict()), encoding="utf-8")
         with self._path.open("wb") as file:
             file.write(record.encode())
             file.flush()
@@ -135,7 +149,7 @@ class _Notes:
 
     def set_aside(self) -> None:
         """Begin with nothing; what there was is kept beside it."""
-        self._close()
+        self.close()
         self._path.rename(self._path.with_suffix(f".{time.time_ns()}.diverged"))
         self.lines, self.spent = [], (0, 0)
 
@@ -148,7 +162,8 @@ class _Notes:
             self._file.seek(len(whole))
         return self._file
 
-    def _close(self) -> None:
+    def close(self) -> None:
+        """Let go of the file; what was handed to the system stays."""
         if self._file is not None:
             self._file.close()
             self._file = None
@@ -250,7 +265,7 @@ class _Game:
             except Lost as lost:
                 self._report(seat, f"{lost} while it was walked through moves it had made")
                 return
-            except Exception:  # noqa: S112, BLE001 - so it was then: asked again
+            except Exception:
                 continue
             if not self._rules.check(view.to_game(), answer):
                 break
@@ -287,7 +302,7 @@ class _Game:
                 continue
             try:
                 seat.over(over_message(played, number, last, score))
-            except Exception as error:  # noqa: BLE001 - the agent's code, and the game is over
+            except Exception as error:
                 self._report(number, f"game_over raised {error!r}")
 
 

@@ -4,7 +4,7 @@ import sys
 
 import typer
 
-from client.cli import agent, bench, demo, doctor, replay, serve, simulate
+from client.cli import agent, bench, demo, doctor, replay, serve, simulate, tournament
 from client.cli.output import FAILED
 
 
@@ -24,6 +24,7 @@ def application() -> typer.Typer:
     app.command("bench")(bench.bench)
     app.add_typer(agent.commands(), name="agent")
     app.add_typer(replay.commands(), name="replay")
+    app.add_typer(tournament.commands(), name="tournament")
     return app
 
 

@@ -65,7 +65,7 @@ class Child:
 def children() -> Iterator[list[Child]]:
     """A list of children to add to; all of them are stopped when the block is left, the last first."""
     started: list[Child] = []
-    with _termination_as_exception():
+    with termination_as_exception():
         try:
             yield started
         finally:
@@ -74,7 +74,7 @@ def children() -> Iterator[list[Child]]:
 
 
 @contextlib.contextmanager
-def _termination_as_exception() -> Iterator[None]:
+def termination_as_exception() -> Iterator[None]:
     """Leave the block by SystemExit on SIGTERM and SIGHUP, unless they are ignored, as under nohup."""
 
     def leave(number: int, _frame: FrameType | None) -> None:

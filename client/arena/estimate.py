@@ -1,0 +1,80 @@
+"""How long an event will take: counted from its terms, timed on a few games that are not part of it."""
+
+import time
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from client.arena.hosting import Kind
+from client.arena.tasks import play_pair
+from client.arena.terms import Terms
+from tournament import Event, Format, Spec
+
+SAMPLE_SECONDS = 60.0
+"""No further sample game is begun after so long."""
+SAMPLE_SEED = 2**62
+"""Another event's: its racks and noise are not those of any game that will count."""
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What an event will take.
+
+    Attributes:
+        games: how many, at least and at most (extra pairs, early stops).
+        workers: playing at once.
+        sampled: games played to find out; game_seconds: mean wall time of those, None without any.
+        seconds: of the whole event, from that mean and ``games``; None without a sample.
+        longest_seconds: if everybody used the whole clock; None without clocks.
+    """
+
+    games: tuple[int, int]
+    workers: int
+    sampled: int
+    game_seconds: float | None
+    seconds: tuple[float, float] | None
+    longest_seconds: float | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON form."""
+        return asdict(self)
+
+
+def estimate(terms: Terms, workers: int) -> Estimate:
+    """Estimate an event's duration; plays for about a minute, or one game if that takes longer."""
+    spec = terms.spec
+    least, most = games_of(spec)
+    times = sample(terms)
+    mean = sum(times) / len(times) if times else None
+    rounds = None if mean is None else (least * mean / workers, most * mean / workers)
+    longest = None if spec.seconds is None else most * 2.0 * spec.seconds / workers
+    return Estimate((least, most), workers, len(times), mean, rounds, longest)
+
+
+def games_of(spec: Spec) -> tuple[int, int]:
+    """How many games an event has: at least, at most."""
+    entrants = len(spec.entrants)
+    if spec.format is Format.SWISS:
+        games = (spec.rounds or 0) * (entrants // 2) * spec.games_in_meeting
+        return games, games
+    if spec.format is Format.KNOCKOUT:
+        return (entrants - 1) * spec.games_in_meeting, (entrants - 1) * (spec.games_in_meeting + 2 * spec.extra_pairs)
+    games = len(Event(spec).due)
+    return (2 if spec.sprt is not None else games), games
+
+
+def sample(terms: Terms) -> list[float]:
+    """Wall seconds of one game for each meeting that brings in an entrant not timed yet; none with remote entrants."""
+    if any(each.kind is Kind.REMOTE for each in terms.hosting.values()):
+        return []
+    event = Event(terms.spec.with_seed(SAMPLE_SEED))
+    timed: set[str] = set()
+    times: list[float] = []
+    for due in event.due:
+        if sum(times) > SAMPLE_SECONDS:
+            break
+        if not timed.issuperset(due.pair.players):
+            started = time.perf_counter()
+            play_pair(Terms(event.spec, terms.hosting).task((due,), None))
+            times.append(time.perf_counter() - started)
+            timed.update(due.pair.players)
+    return times

@@ -1,0 +1,88 @@
+"""An event as its journal tells it: every entry changes it or is refused, in the same way whenever it is read."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+
+from client.arena.directory import EventError
+from client.arena.journal import Entry
+from tournament import Event, GameResult, TournamentError
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """How an event stands.
+
+    Attributes:
+        event: terms and results.
+        paused: no game is to be started for now. aborted: nor ever again.
+        refused: entries that could not be carried out, and why.
+    """
+
+    event: Event
+    paused: bool = False
+    aborted: bool = False
+    refused: tuple[str, ...] = field(default=())
+
+    @property
+    def over(self) -> bool:
+        """Nothing is left to be done."""
+        return self.aborted or self.event.finished
+
+    def after(self, entries: Iterable[Entry]) -> "Ledger":
+        """How it stands after more entries."""
+        ledger, games = self, list[GameResult]()
+        for entry in entries:
+            if entry.kind == "game":
+                games.append(_result(entry))
+                continue
+            ledger, games = ledger.with_games(games), []
+            ledger = ledger._changed(entry)
+        return ledger.with_games(games)
+
+    def with_games(self, results: Iterable[GameResult]) -> "Ledger":
+        """With more results.
+
+        The first one of a game stays. One that comes too late, of a game that was forfeit meanwhile or whose pair is
+        no longer in the event, is passed over.
+        """
+        fresh: dict[tuple[str, int], GameResult] = {}
+        results = tuple(results)
+        pairs = {pair.id for pair in self.event.plan.pairs} if results else set()
+        seen = {(one.pair, one.leg, one.attempt) for one in self.event.results}
+        for one in results:
+            key = one.pair, one.leg
+            if one.pair in pairs and key not in self.event.games and (*key, one.attempt) not in seen:
+                fresh.setdefault(key, one)
+        return replace(self, event=self.event.with_results(*fresh.values())) if fresh else self
+
+    def _changed(self, entry: Entry) -> "Ledger":
+        act = _ACTS.get(entry.kind)
+        try:
+            return self if act is None else act(self, entry)
+        except TournamentError as error:
+            return replace(self, refused=(*self.refused, f"{entry.kind}: {error}"))
+
+
+def _result(entry: Entry) -> GameResult:
+    try:
+        return GameResult.from_dict(entry.fields["result"])
+    except (KeyError, TournamentError) as error:
+        raise EventError(f"the journal's game of {entry.at} is no result: {error}") from None
+
+
+def _void(ledger: Ledger, entry: Entry) -> Ledger:
+    return replace(ledger, event=ledger.event.voided(entry.fields["pair"], entry.fields["leg"]))
+
+
+def _disqualify(ledger: Ledger, entry: Entry) -> Ledger:
+    return replace(ledger, event=ledger.event.disqualified(entry.fields["name"]))
+
+
+_ACTS: dict[str, Callable[[Ledger, Entry], Ledger]] = {
+    "void": _void,
+    "disqualify": _disqualify,
+    "pause": lambda ledger, _: replace(ledger, paused=True),
+    "go_on": lambda ledger, _: replace(ledger, paused=False),
+    "abort": lambda ledger, _: replace(ledger, aborted=True),
+}
+"""What an organiser may do, by the kind of its entry. Other kinds (opened, incident, …) change nothing."""

@@ -1,0 +1,86 @@
+"""The terms of an event as a file: what ``tournament.Spec`` says, and how each entrant is run."""
+
+import hashlib
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Self
+
+from client.arena.directory import EventError
+from client.arena.hosting import Hosting
+from client.arena.table import GameTask
+from client.arena.tasks import PairTask
+from tournament import Due, Spec, TournamentError, game_seeds
+
+
+@dataclass(frozen=True, slots=True)
+class Terms:
+    """What an event needs to be run.
+
+    Attributes:
+        spec: the event's terms.
+        hosting: how each entrant is run, by name.
+    """
+
+    spec: Spec
+    hosting: dict[str, Hosting]
+
+    @classmethod
+    def read(cls, path: Path) -> Self:
+        """Read an event file (TOML).
+
+        Raises:
+            EventError: it cannot be read, or something in it cannot be: field, value and what is allowed.
+        """
+        try:
+            return cls.from_dict(tomllib.loads(path.read_text(encoding="utf-8")))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise EventError(f"{path} cannot be read: {error}") from None
+        except EventError as error:
+            raise EventError(f"{path}: {error}") from None
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:
+        """Read a TOML document, or what ``to_dict`` wrote."""
+        if not isinstance(data, dict):
+            raise EventError(f"event = {data!r}: must be a table")
+        values = dict(data)
+        tables = values.pop("hosting", {})
+        try:
+            spec = Spec.from_dict(values)
+        except TournamentError as error:
+            raise EventError(str(error)) from None
+        if not isinstance(tables, dict) or not set(tables) <= set(spec.names):
+            raise EventError(f"hosting = {list(tables)!r}: tables named like entrants, {', '.join(spec.names)}")
+        return cls(spec, {one.name: Hosting.from_dict(one.agent, tables.get(one.name, {})) for one in spec.entrants})
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON form."""
+        return self.spec.to_dict() | {"hosting": {name: each.to_dict() for name, each in self.hosting.items()}}
+
+    @property
+    def agent_seed(self) -> int:
+        """The seed of the shipped agents' choices; it tells nothing of the event's own."""
+        return int.from_bytes(hashlib.sha256(f"pooliad/1 agents {self.spec.seed}".encode()).digest()[:4])
+
+    def game(self, due: Due) -> GameTask:
+        """A game as a worker needs it."""
+        spec = self.spec
+        return GameTask(
+            due=due,
+            seeds=game_seeds(spec, due.pair, due.leg, due.attempt),
+            table=spec.table if isinstance(spec.table, str) else dict(spec.table),
+            told=spec.noise.told,
+            seconds=spec.seconds,
+            simulated_shots=spec.simulated_shots,
+        )
+
+    def task(self, games: tuple[Due, ...], directory: Path | None) -> PairTask:
+        """The games of a pair as a worker needs them."""
+        first, second = games[0].pair.players
+        return PairTask(
+            games=tuple(self.game(due) for due in games),
+            players=(self.hosting[first], self.hosting[second]),
+            agent_seed=self.agent_seed,
+            directory=None if directory is None else str(directory),
+        )

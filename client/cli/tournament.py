@@ -1,0 +1,251 @@
+"""`pooliad tournament`: run events, take them up again, decide about them while they run."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from client.cli.output import USAGE, Json, emit, fail, say
+
+if TYPE_CHECKING:
+    from client.arena.directory import EventDirectory
+    from client.arena.ledger import Ledger
+    from client.arena.terms import Terms
+
+Event = Annotated[Path, typer.Argument(help="Directory of the event.")]
+Executor = Annotated[str, typer.Option(help="Where games are played: processes, inline, or dask://HOST:PORT.")]
+Workers = Annotated[int | None, typer.Option(min=1, max=4096, help="Processes; one for each core unless given.")]
+Reason = Annotated[str, typer.Option(help="Why; it stays in the journal.")]
+
+
+def commands() -> typer.Typer:
+    """The subcommands."""
+    app = typer.Typer(help="Run tournaments.", no_args_is_help=True)
+    for name, command in (
+        ("run", run),
+        ("resume", resume),
+        ("status", status),
+        ("pause", pause),
+        ("go-on", go_on),
+        ("abort", abort),
+        ("void", void),
+        ("disqualify", disqualify),
+    ):
+        app.command(name)(command)
+    return app
+
+
+def run(
+    file: Annotated[Path, typer.Argument(help="The event's terms, TOML (docs/tournaments.md).")],
+    out: Annotated[Path | None, typer.Option(help="Directory for the event; the file's name unless given.")] = None,
+    executor: Executor = "processes",
+    workers: Workers = None,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Only check the file and estimate the duration.")] = False,
+    as_json: Json = False,
+) -> None:
+    """Play an event to its end, from its first game.
+
+    Interrupted, it goes on with `pooliad tournament resume DIRECTORY`.
+    """
+    from client.arena.directory import EventDirectory
+    from client.arena.terms import Terms
+
+    _find_here()
+    terms = Terms.read(file)
+    if dry_run:
+        _estimate(terms, workers, as_json)
+        return
+    directory = EventDirectory.create(out or Path(file.stem), terms.to_dict())
+    directory.journal.append("opened", file=str(file))
+    _play(directory, terms, executor, workers, as_json)
+
+
+def resume(directory: Event, executor: Executor = "processes", workers: Workers = None, as_json: Json = False) -> None:
+    """Take up an event that was interrupted: finished games stand, unfinished ones go on from their last stroke."""
+    from client.arena.terms import Terms
+
+    _find_here()
+    event = _opened(directory)
+    event.journal.append("resumed")
+    _play(event, Terms.from_dict(event.terms()), executor, workers, as_json)
+
+
+def status(directory: Event, as_json: Json = False) -> None:
+    """How an event stands, running or not."""
+    event = _opened(directory)
+    _report(event, _ledger(event), as_json)
+
+
+def pause(directory: Event, reason: Reason = "") -> None:
+    """Start no further game until `go-on`; those under way are played to their end."""
+    _decide(directory, "pause", reason=reason)
+
+
+def go_on(directory: Event, reason: Reason = "") -> None:
+    """Take back a pause; an event whose runner has left goes on with `resume`."""
+    _decide(directory, "go_on", reason=reason)
+
+
+def abort(directory: Event, reason: Reason = "") -> None:
+    """End an event for good; its results so far stand."""
+    _decide(directory, "abort", reason=reason)
+
+
+def void(
+    directory: Event,
+    pair: Annotated[str, typer.Argument(help="Id of the pair, as in r0-m2-p1.")],
+    leg: Annotated[int, typer.Argument(min=0, max=1, help="0 for its first game, 1 for its second.")],
+    reason: Reason = "",
+) -> None:
+    """Take a finished game out of the event; it is played again, on the same racks with fresh noise."""
+    _decide(directory, "void", pair=pair, leg=leg, reason=reason)
+
+
+def disqualify(
+    directory: Event, name: Annotated[str, typer.Argument(help="The entrant's name.")], reason: Reason = ""
+) -> None:
+    """Take an entrant out: its due games are forfeit, and it is not paired any more."""
+    _decide(directory, "disqualify", name=name, reason=reason)
+
+
+def _opened(directory: Path) -> "EventDirectory":
+    from client.arena.directory import EventDirectory
+
+    return EventDirectory.open(directory)
+
+
+def _ledger(event: "EventDirectory") -> "Ledger":
+    from client.arena.ledger import Ledger
+    from client.arena.terms import Terms
+    from tournament import Event as Played
+
+    return Ledger(Played(Terms.from_dict(event.terms()).spec)).after(event.journal.new())
+
+
+def _decide(directory: Path, kind: str, **fields: Any) -> None:
+    """Write an organiser's decision into the journal, if it can be carried out as the event stands."""
+    from client.arena.journal import Entry
+
+    event = _opened(directory)
+    before = _ledger(event)
+    after = before.after([Entry(kind, "", fields)])
+    if len(after.refused) > len(before.refused):
+        fail(after.refused[-1], USAGE)
+    if before.aborted:
+        fail("the event was aborted; nothing more can be decided about it", USAGE)
+    event.journal.append(kind, by=_who(), **fields)
+    say(f"noted in {event.journal.path}; a runner acts on it within a second")
+
+
+def _who() -> str:
+    """Who decides, for the journal."""
+    import getpass
+
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):
+        return "unknown"
+
+
+def _play(event: "EventDirectory", terms: "Terms", executor: str, workers: int | None, as_json: bool) -> None:
+    """Play until the event is over, paused or interrupted, and say how it stands."""
+    from client.arena.estimate import games_of
+    from client.arena.executors import pool_of
+    from client.arena.runner import Runner
+    from client.cli.processes import termination_as_exception
+    from client.cli.progress import shown
+
+    try:
+        with (
+            termination_as_exception(),
+            pool_of(executor, workers) as pool,
+            shown(games_of(terms.spec)[1], as_json) as seen,
+        ):
+            ledger = Runner(event, pool, seen).run()
+    except KeyboardInterrupt:
+        event.journal.append("interrupted")
+        fail(f"interrupted; go on with: pooliad tournament resume {event.path}", 130)
+    _report(event, ledger, as_json)
+    if ledger.aborted:
+        fail("the event was aborted")
+
+
+def _report(event: "EventDirectory", ledger: "Ledger", as_json: bool) -> None:
+    """How the event stands, for people or as JSON."""
+    if as_json:
+        emit(_account(event, ledger))
+        return
+    from rich.console import Console
+
+    from client.cli.progress import standings_table
+
+    Console().print(standings_table(ledger))
+    say(_sentence(event, ledger))
+
+
+def _account(event: "EventDirectory", ledger: "Ledger") -> dict[str, Any]:
+    """Everything about how the event stands."""
+    from dataclasses import asdict
+
+    from tournament import standings
+
+    played = ledger.event
+    return {
+        "name": played.spec.name,
+        "directory": str(event.path),
+        "state": _state(ledger),
+        "games": len(played.counted),
+        "due": len(played.due),
+        "standings": [line.to_dict() for line in standings(played)],
+        "sprt": None if played.test is None else asdict(played.test),
+        "refused": list(ledger.refused),
+    }
+
+
+def _state(ledger: "Ledger") -> str:
+    if ledger.aborted:
+        return "aborted"
+    if ledger.event.finished:
+        return "finished"
+    return "paused" if ledger.paused else "unfinished"
+
+
+def _sentence(event: "EventDirectory", ledger: "Ledger") -> str:
+    state, test = _state(ledger), ledger.event.test
+    words = f"{state}: {len(ledger.event.counted)} games; records and journal in {event.path}"
+    if test is not None:
+        words += f"; the test says {test.verdict} after {test.pairs} pairs (log-likelihood ratio {test.llr:.2f})"
+    return words
+
+
+def _estimate(terms: "Terms", workers: int | None, as_json: bool) -> None:
+    """Say what the event will take."""
+    from client.arena.estimate import estimate
+    from client.arena.executors import cores
+
+    found = estimate(terms, workers or cores())
+    if as_json:
+        emit(found.to_dict())
+        return
+    games = f"{found.games[0]}" if found.games[0] == found.games[1] else f"{found.games[0]} to {found.games[1]}"
+    say(f"{terms.spec.name}: {len(terms.spec.entrants)} entrants, {terms.spec.format}, {games} games")
+    if found.seconds is not None:
+        low, high = (_duration(each) for each in found.seconds)
+        span = low if low == high else f"{low} to {high}"
+        say(
+            f"about {span} with {found.workers} workers ({found.sampled} sample games, {found.game_seconds:.1f} s each)"
+        )
+    if found.longest_seconds is not None:
+        say(f"at most {_duration(found.longest_seconds)}, if everybody used the whole clock")
+
+
+def _duration(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours} h {minutes} min" if hours else f"{minutes} min {rest} s" if minutes else f"{rest} s"
+
+
+def _find_here() -> None:
+    from client.arena.serving import find_here
+
+    find_here()

@@ -1,0 +1,266 @@
+"""Whole events: on any executor the same, killed at any instant and taken up again, decided about while they run."""
+
+import json
+import os
+import random
+import subprocess
+import sys
+import time
+
+import pytest
+
+from client.arena.directory import EventDirectory, EventError
+from client.arena.executors import InProcess, pool_of
+from client.arena.ledger import Ledger
+from client.arena.runner import Runner
+from client.arena.terms import Terms
+from referee.record import verify_record
+from tournament import Event
+
+CUP = {
+    "name": "cup",
+    "entrants": ["random", {"name": "other", "agent": "random"}, {"name": "third", "agent": "random"}],
+    "pairs": 1,
+    "seconds": None,
+    "seed": 11,
+}
+
+
+def begin(path, **values):
+    return EventDirectory.create(path, Terms.from_dict(CUP | values).to_dict())
+
+
+def run(directory, pool=None):
+    return Runner(directory, pool or InProcess()).run()
+
+
+def files(directory):
+    """Everything that counts, byte for byte: the records and the results."""
+    return {path.name: path.read_bytes() for path in directory.games.glob("*.json*")}
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The event played without interruption, in this process."""
+    directory = begin(tmp_path_factory.mktemp("whole") / "cup")
+    return run(directory), files(directory)
+
+
+def test_every_pair_is_played_and_every_record_verifies(whole):
+    ledger, kept = whole
+    assert ledger.event.finished
+    records = [text for name, text in kept.items() if name.endswith(".jsonl")]
+    assert len(records) == len(ledger.event.counted) == 6
+    assert all(verify_record(record.decode().splitlines()).ok for record in records)
+
+
+def command(*arguments):
+    return [sys.executable, "-m", "client.cli", "tournament", *map(str, arguments)]
+
+
+def start(*arguments, **options):
+    return subprocess.Popen(
+        command(*arguments),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        **options,
+    )
+
+
+def killed_again_and_again(directory, kills, executor):
+    """Resume the event again and again, each time killed outright a moment after something happened."""
+    chance, kept = random.Random(5), 0
+    while kept < kills:
+        before = activity(directory)
+        process = start("resume", directory.path, "--executor", executor, "--workers", 2)
+        while process.poll() is None and activity(directory) == before:
+            time.sleep(0.005)
+        time.sleep(chance.uniform(0.0, 0.25))
+        kept += process.poll() is None
+        process.kill()
+        _, words = process.communicate()
+        if process.returncode == 0:
+            return kept
+        assert process.returncode == -9, words
+    return kept
+
+
+def activity(directory):
+    return sum(path.stat().st_size for path in directory.games.iterdir() if path.suffix in (".part", ".jsonl"))
+
+
+def check_kills(tmp_path, whole, kills, executor):
+    directory = begin(tmp_path / "cup")
+    assert killed_again_and_again(directory, kills, executor) >= 2
+    done = subprocess.run(command("resume", directory.path, "--json"), capture_output=True, text=True, check=True)
+    assert json.loads(done.stdout)["state"] == "finished"
+    assert files(directory) == whole[1]
+    ledger = Ledger(Event(Terms.from_dict(directory.terms()).spec)).after(directory.journal.new())
+    assert ledger.event.counted == whole[0].event.counted
+    assert list(directory.games.glob("*.part")) == []
+
+
+def test_an_event_killed_at_many_instants_ends_like_one_that_was_not(tmp_path, whole):
+    check_kills(tmp_path, whole, 3, "inline")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("executor", ["inline", "processes"])
+def test_an_event_killed_at_very_many_instants_ends_like_one_that_was_not(tmp_path, executor):
+    directory = begin(tmp_path / "whole", pairs=40)
+    reference = run(directory), files(directory)
+    check_kills_of(tmp_path / "killed", reference, executor)
+
+
+def check_kills_of(path, reference, executor):
+    path.mkdir()
+    directory = begin(path / "cup", pairs=40)
+    killed_again_and_again(directory, 60, executor)
+    subprocess.run(command("resume", directory.path), capture_output=True, check=True)
+    assert files(directory) == reference[1]
+
+
+def test_ctrl_c_leaves_an_event_that_goes_on(tmp_path, whole):
+    directory = begin(tmp_path / "cup")
+    process = start("resume", directory.path, "--workers", 1)
+    while activity(directory) == 0:
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.send_signal(2)
+    _, words = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert "tournament resume" in words
+    assert "Traceback" not in words
+    run(directory)
+    assert files(directory) == whole[1]
+
+
+def test_only_one_runs_an_event(tmp_path):
+    directory = begin(tmp_path / "cup")
+    with directory.alone(), pytest.raises(EventError, match="another process"):
+        run(EventDirectory.open(directory.path))
+    with pytest.raises(EventError, match="resume"):
+        begin(tmp_path / "cup")
+    with pytest.raises(EventError, match="holds no event"):
+        EventDirectory.open(tmp_path)
+
+
+def test_a_void_game_is_played_again_with_fresh_noise_on_the_same_racks(tmp_path):
+    directory = begin(tmp_path / "cup")
+    before = run(directory).event
+    directory.journal.append("void", pair="r0-m0-p0", leg=0, by="judge", reason="power cut")
+    ledger = run(directory)
+    assert ledger.event.finished
+    assert len(ledger.event.counted) == len(before.counted)
+    old, new = (json.loads((directory.games / f"r0-m0-p0-g0{a}.jsonl").read_text().split("\n")[0]) for a in ("", "-a1"))
+    assert old["start"] == new["start"]
+    assert old["commitment"] != new["commitment"]
+    (again,) = [game for game in ledger.event.counted if game.attempt]
+    assert again.record == "games/r0-m0-p0-g0-a1.jsonl"
+
+
+class Deciding(InProcess):
+    """Writes an entry into the journal when the n-th pair has been played."""
+
+    def __init__(self, directory, after, kind, **fields):
+        self.directory, self.left, self.kind, self.fields = directory, after, kind, fields
+
+    def submit(self, task):
+        future = super().submit(task)
+        self.left -= 1
+        if self.left == 0:
+            self.directory.journal.append(self.kind, **self.fields)
+        return future
+
+
+def test_a_paused_event_starts_nothing_and_goes_on_later(tmp_path, whole):
+    directory = begin(tmp_path / "cup")
+    ledger = run(directory, Deciding(directory, 2, "pause"))
+    assert ledger.paused
+    assert not ledger.over
+    assert len(ledger.event.counted) == 4
+    assert len(run(directory).event.counted) == 4
+    directory.journal.append("go_on")
+    assert run(directory).event.counted == whole[0].event.counted
+
+
+def test_an_aborted_event_is_over_for_good(tmp_path):
+    directory = begin(tmp_path / "cup")
+    assert run(directory, Deciding(directory, 1, "abort")).aborted
+    directory.journal.append("go_on")
+    assert len(run(directory).event.counted) == 2
+
+
+def test_who_is_disqualified_forfeits_what_was_begun_and_is_paired_no_more(tmp_path):
+    directory = begin(tmp_path / "cup")
+    ledger = run(directory, Deciding(directory, 1, "disqualify", name="third", reason="cheated"))
+    assert ledger.over
+    assert "third" in ledger.event.withdrawn
+    assert {game.reason for game in ledger.event.counted if "third" in game.players} <= {"forfeit"}
+
+
+def test_a_decision_that_cannot_be_is_refused_in_words(tmp_path):
+    directory = begin(tmp_path / "cup")
+    directory.journal.append("void", pair="r9-m0-p0", leg=0)
+    directory.journal.append("disqualify", name="nobody")
+    ledger = run(directory)
+    assert len(ledger.refused) == 2
+    assert ledger.event.finished
+
+
+class Dying(InProcess):
+    """A pool whose workers die over one pair."""
+
+    def __init__(self, pair, times):
+        self.pair, self.times = pair, times
+
+    def submit(self, task):
+        from concurrent.futures import Future
+        from concurrent.futures.process import BrokenProcessPool
+
+        if task.pair != self.pair or self.times == 0:
+            return super().submit(task)
+        self.times -= 1
+        future = Future()
+        future.set_exception(BrokenProcessPool("a worker died"))
+        return future
+
+
+def test_a_pair_whose_worker_died_is_played_by_another(tmp_path, whole):
+    directory = begin(tmp_path / "cup")
+    assert run(directory, Dying("r1-m0-p0", 2)).event.counted == whole[0].event.counted
+    assert files(directory) == whole[1]
+    again = begin(tmp_path / "again")
+    with pytest.raises(EventError, match="r1-m0-p0"):
+        run(again, Dying("r1-m0-p0", 99))
+
+
+def test_a_worker_killed_in_the_middle_costs_nothing(tmp_path, whole):
+    directory = begin(tmp_path / "cup")
+    with pool_of("processes", 2) as pool:
+        killed = []
+
+        def kill_one(_ledger, running):
+            if running and not killed and activity(directory):
+                killed.append(next(iter(pool._pool._processes)))
+                os.kill(killed[0], 9)
+
+        ledger = Runner(directory, pool, kill_one).run()
+    assert killed
+    assert ledger.event.counted == whole[0].event.counted
+    assert files(directory) == whole[1]
+
+
+def test_the_sequential_test_is_evaluated_in_the_order_of_pairs(tmp_path):
+    """Whatever else was finished by then: the counted games are those up to the decision."""
+    sprt = {"entrants": ["random", {"name": "dead", "agent": "false"}], "pairs": 60, "sprt": {"elo1": 300.0}}
+    one = begin(tmp_path / "one", **sprt)
+    ledger = run(one)
+    assert ledger.event.stopped
+    assert ledger.event.test.verdict == "elo1"
+    two = begin(tmp_path / "two", **sprt)
+    with pool_of("processes", 2) as pool:
+        other = run(two, pool)
+    assert other.event.counted == ledger.event.counted

@@ -1,0 +1,198 @@
+"""Games of an event: every way an agent can fail has its own end, and a game that was broken off goes on."""
+
+import dataclasses
+import itertools
+import sys
+import textwrap
+
+import pytest
+
+from client.agents.random_agent import RandomAgent
+from client.arena.hosting import Hosting
+from client.arena.seats import InlineSeat
+from client.arena.table import play
+from client.arena.tasks import play_pair
+from client.arena.terms import Terms
+from referee import EndReason
+from referee.record import verify_record
+from tournament import Event
+
+
+def terms_of(**values):
+    return Terms.from_dict({"name": "cup", "entrants": ["one", "two"], "seconds": None, "seed": 3, **values})
+
+
+def games_of(terms):
+    return [terms.game(due) for due in Event(terms.spec).due]
+
+
+def reports_into(found):
+    return lambda name, what: found.append((name, what))
+
+
+def seats(seed=1):
+    return tuple(InlineSeat(lambda: RandomAgent(seed)) for _ in range(2))
+
+
+def pair_of(first, second, **values):
+    """Both games of a pair between two hostings."""
+    terms = terms_of(**values)
+    terms = dataclasses.replace(terms, hosting={"one": first, "two": second})
+    return play_pair(terms.task(Event(terms.spec).due, None))
+
+
+def script(tmp_path, text):
+    """A command that runs a Python script."""
+    path = tmp_path / "bot.py"
+    path.write_text("import json, os, sys, time\n" + textwrap.dedent(text))
+    return f"{sys.executable} {path}"
+
+
+@pytest.mark.parametrize(
+    ("text", "values", "reason"),
+    [
+        ("sys.exit(3)", {}, EndReason.CRASH),
+        ("sys.stdin.readline(); os.kill(os.getpid(), 9)", {}, EndReason.CRASH),
+        ("time.sleep(60)", {}, EndReason.STALL),
+        ("os.close(0); time.sleep(60)", {}, EndReason.STALL),
+        ("time.sleep(60)", {"seconds": 0.6}, EndReason.TIME_OUT),
+        ("for line in sys.stdin: print('nonsense', flush=True)", {}, EndReason.FORFEIT),
+        ("for line in sys.stdin: print(json.dumps({'decision': 'concede'}), flush=True)", {}, EndReason.CONCESSION),
+        ("for line in sys.stdin: print('x' * 100_000, flush=True)", {}, EndReason.FORFEIT),
+        ("x = bytes(10**10)", {}, EndReason.CRASH),
+    ],
+    ids=["exits", "killed", "silent", "deaf", "slow", "nonsense", "concedes", "long line", "memory"],
+)
+def test_every_failure_has_its_own_end_and_costs_one_game(tmp_path, text, values, reason):
+    """Both games are lost in the same way: after the first the process was started again."""
+    bad = Hosting(script(tmp_path, text), answer_seconds=1.0, memory_mb=2000)
+    done = pair_of(bad, Hosting("random"), **values)
+    for result, record in zip(done.results, done.records, strict=True):
+        assert (result.reason, result.winner) == (reason, 1)
+        assert verify_record(record.splitlines()).ok
+
+
+def test_a_flood_ends_the_game_whatever_of_it_is_read_first(tmp_path):
+    bad = Hosting(script(tmp_path, "while True: print('x' * 1000)"), answer_seconds=1.0)
+    for result in pair_of(bad, Hosting("random")).results:
+        assert result.reason in (EndReason.FORFEIT, EndReason.STALL)
+        assert result.winner == 1
+
+
+def test_what_is_said_unasked_is_no_answer(tmp_path):
+    talks = """
+    print(json.dumps({"decision": "concede"}), flush=True)
+    for line in sys.stdin:
+        print("hm", flush=True)
+    """
+    done = pair_of(Hosting(script(tmp_path, "time.sleep(0.3)\n" + textwrap.dedent(talks))), Hosting("random"))
+    assert {result.reason for result in done.results} <= {EndReason.FORFEIT, EndReason.CONCESSION}
+    assert any(name == "one" for name, _ in done.reports)
+
+
+def test_a_process_plays_the_very_game_it_plays_inside():
+    inside = pair_of(Hosting("random"), Hosting("random"), simulated_shots=10)
+    outside = pair_of(Hosting("random", process=True, cores=1), Hosting("random"), simulated_shots=10)
+    assert outside.records == inside.records
+    assert outside.results == inside.results
+
+
+def test_both_games_of_a_pair_have_the_same_racks_and_never_the_same_noise():
+    """Issue 'Pairs': were the noise the same, the second game could be played with the first one's known."""
+    first, second = (verify_and_read(record) for record in pair_of(Hosting("random"), Hosting("random")).records)
+    assert first.header["start"]["state"] == second.header["start"]["state"]
+    assert first.end["noise_seed"] != second.end["noise_seed"]
+    assert [each.header["start"]["breaker"] for each in (first, second)] == [0, 1]
+
+
+def verify_and_read(record):
+    from referee.record import read_record
+
+    assert verify_record(record.splitlines()).ok
+    return read_record(record.splitlines())
+
+
+class Unplugged(BaseException):
+    """The machine stops here."""
+
+
+class Failing(InlineSeat):
+    """A seat at which everything stops at the n-th question."""
+
+    def __init__(self, factory, questions):
+        super().__init__(factory)
+        self.questions = questions
+
+    def ask(self, view, seconds):
+        if next(self.questions) == 0:
+            raise Unplugged
+        return super().ask(view, seconds)
+
+
+def failing(at):
+    """Two seats, at one of which everything stops at the question number ``at`` of both together."""
+    countdown = itertools.count(at, -1)
+    return tuple(Failing(lambda: RandomAgent(1), countdown) for _ in range(2))
+
+
+@pytest.mark.parametrize("values", [{}, {"seconds": 1000.0}], ids=["no clock", "clock"])
+@pytest.mark.parametrize("at", [0, 1, 2, 17, 40])
+def test_a_game_broken_off_goes_on_where_it_was(tmp_path, at, values):
+    (task, _) = games_of(terms_of(**values))
+    whole, text = play(task, seats(), None, reports_into([]))
+    with pytest.raises(Unplugged):
+        play(task, failing(at), tmp_path, reports_into([]))
+    part = (tmp_path / f"{task.due.id}.part").read_bytes() if at else b""
+    assert part.count(b"\n") == (at + 1 if at else 0)
+    reports = []
+    result, again = play(task, seats(), tmp_path, reports_into(reports))
+    if values:
+        assert again.encode().startswith(part)  # the moves made stand, with their times
+        assert verify_record(again.splitlines()).ok
+    else:
+        assert (result, again) == (whole, text)
+        assert reports == []
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f"{task.due.id}.jsonl", f"{task.due.id}.result.json"]
+
+
+@pytest.mark.parametrize("cut", [1, 30, 4000])
+def test_a_torn_line_is_played_again(tmp_path, cut):
+    (task, _) = games_of(terms_of())
+    whole = play(task, seats(), None, reports_into([]))
+    with pytest.raises(Unplugged):
+        play(task, failing(9), tmp_path, reports_into([]))
+    part = tmp_path / f"{task.due.id}.part"
+    part.write_bytes(part.read_bytes()[:-cut])
+    assert play(task, seats(), tmp_path, reports_into([])) == whole
+
+
+def test_moves_made_stand_even_if_the_player_thinks_otherwise_now(tmp_path):
+    (task, _) = games_of(terms_of())
+    with pytest.raises(Unplugged):
+        play(task, failing(9), tmp_path, reports_into([]))
+    part = (tmp_path / f"{task.due.id}.part").read_text()
+    reports = []
+    _, text = play(task, seats(seed=2), tmp_path, reports_into(reports))
+    assert text.startswith(part)
+    assert any("otherwise the second time" in what for _, what in reports)
+
+
+def test_a_game_begun_by_another_engine_is_played_from_its_first_stroke(tmp_path):
+    (task, _) = games_of(terms_of())
+    whole = play(task, seats(), None, reports_into([]))
+    other = games_of(terms_of(seed=4))[0]
+    with pytest.raises(Unplugged):
+        play(other, failing(9), tmp_path, reports_into([]))
+    reports = []
+    assert play(task, seats(), tmp_path, reports_into(reports)) == whole
+    assert any("first stroke" in what for _, what in reports)
+    assert len(list(tmp_path.glob("*.diverged"))) == 1
+
+
+def test_a_finished_game_is_not_played_again(tmp_path):
+    (task, _) = games_of(terms_of(simulated_shots=5))
+    first = play(task, seats(), tmp_path, reports_into([]))
+    nobody = Failing(lambda: RandomAgent(1), itertools.repeat(0))
+    assert play(task, (nobody, nobody), tmp_path, reports_into([])) == first
+    (tmp_path / f"{task.due.id}.result.json").write_text("{")
+    assert play(task, (nobody, nobody), tmp_path, reports_into([]))[0].winner == first[0].winner

@@ -1,0 +1,105 @@
+"""How entrants are run: docs/tournaments.md, Entrants."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from client.arena import confine
+from client.arena.cores import CoreLease
+from client.arena.directory import EventError
+from client.arena.hosting import Hosting, Kind
+from client.arena.terms import Terms
+
+EVENT = {"name": "cup", "entrants": ["random", "greedy"]}
+
+
+@pytest.mark.parametrize(
+    ("agent", "kind", "process"),
+    [
+        ("greedy", Kind.SHIPPED, False),
+        ("my.bots:Best", Kind.IMPORT_PATH, True),
+        ("remote", Kind.REMOTE, False),
+        ("remote:agent_12", Kind.REMOTE, False),
+        ("./bot --level 3", Kind.COMMAND, True),
+        ("node 'my bot.js'", Kind.COMMAND, True),
+    ],
+)
+def test_an_agent_is_told_by_its_name(agent, kind, process):
+    assert Hosting(agent).kind is kind
+    assert Hosting(agent).as_process is process
+    assert Hosting.from_dict(agent, Hosting(agent).to_dict()) == Hosting(agent)
+
+
+@pytest.mark.parametrize(
+    ("agent", "values", "named"),
+    [
+        ("greedy", {"memory_mb": 100}, "process"),
+        ("./bot", {"memory_mb": 0}, "memory_mb"),
+        ("./bot", {"memory_mb": True}, "memory_mb"),
+        ("./bot", {"cores": 0.5}, "cores"),
+        ("./bot", {"answer_seconds": 0}, "answer_seconds"),
+        ("./bot", {"answer_seconds": float("nan")}, "answer_seconds"),
+        ("./bot", {"options": {"level": 3}}, "options"),
+        ("greedy", {"options": [3]}, "options"),
+        ("./bot", {"environment": {"A": 3}}, "environment"),
+        ("./bot", {"memory": 3}, "memory"),
+        ("./bot 'open", {}, "agent"),
+        (" ", {}, "agent"),
+    ],
+)
+def test_what_cannot_be_is_named(agent, values, named):
+    with pytest.raises(EventError, match=named):
+        Hosting.from_dict(agent, values)
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("name = 3", "name"),
+        ('name = "x"\nentrants = ["a", "b"]\nsed = 3', "sed"),
+        ('name = "x"\nentrants = ["a", "b"]\n[hosting.c]', "hosting"),
+        ('name = "x"\nentrants = ["a", "b"]\n[hosting.a]\ncores = -1', "cores"),
+        ("name = ", "cannot be read"),
+        ("\x00", "cannot be read"),
+    ],
+)
+def test_a_bad_event_file_is_one_line_that_names_the_fault(tmp_path, text, named):
+    (tmp_path / "cup.toml").write_text(text)
+    with pytest.raises(EventError, match=named):
+        Terms.read(tmp_path / "cup.toml")
+
+
+def test_terms_come_back_as_they_were():
+    terms = Terms.from_dict(EVENT | {"hosting": {"greedy": {"process": True, "memory_mb": 2000}}})
+    again = Terms.from_dict(json.loads(json.dumps(terms.to_dict())))
+    assert again == terms
+    assert again.hosting["greedy"].memory_mb == 2000
+
+
+def test_no_two_leases_share_a_core():
+    available = len(os.sched_getaffinity(0))
+    leases = [CoreLease(1) for _ in range(available + 1)]
+    try:
+        held = [cpu for lease in leases for cpu in lease.cpus]
+        assert len(set(held)) == len(held) <= available
+        assert leases[-1].cpus == []
+    finally:
+        for lease in leases:
+            lease.release()
+
+
+def confined(script, memory=None):
+    limits = {"memory": memory, "cpus": sorted(os.sched_getaffinity(0))[:1], "file": 1000, "parent": os.getpid()}
+    command = [sys.executable, "-I", "-S", confine.__file__, json.dumps(limits), sys.executable, "-c", script]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_limits_hold_in_the_process():
+    said = confined(
+        "import os, resource; print(len(os.sched_getaffinity(0)), resource.getrlimit(resource.RLIMIT_FSIZE)[0])"
+    )
+    assert said.stdout.split() == ["1", "1000"]
+    assert "MemoryError" in confined("x = bytes(10**9)", memory=500 * 2**20).stderr
