@@ -4,7 +4,7 @@ import sys
 
 import typer
 
-from client.cli import agent, bench, demo, doctor, replay, serve, simulate, tournament
+from client.cli import agent, backup, bench, demo, doctor, replay, serve, simulate, tournament
 from client.cli.output import FAILED
 
 
@@ -19,6 +19,7 @@ def application() -> typer.Typer:
     )
     app.command("demo")(demo.demo)
     app.command("serve")(serve.serve)
+    app.command("backup")(backup.backup)
     app.command("simulate")(simulate.simulate)
     app.command("doctor")(doctor.doctor)
     app.command("bench")(bench.bench)

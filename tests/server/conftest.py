@@ -192,7 +192,7 @@ def scripted(view: dict[str, Any], chance: random.Random) -> dict[str, Any]:
     cue_ball = None
     if area := view["cue_ball_area"]:
         cue_ball = balls["0"] = [chance.uniform(*area["x"]), chance.uniform(*area["y"])]
-    target = chance.choice(view["callable_balls"] or [1])
+    target = chance.choice(view["callable_balls"] or [ball for ball in map(int, balls) if ball])
     (x, y), (to_x, to_y) = balls["0"], balls[str(target)]
     phi = math.degrees(math.atan2(to_y - y, to_x - x)) + chance.choice((1, 1, 1, 90)) * chance.uniform(-2, 2)
     call = {"ball": target, "pocket": chance.randrange(6)} if allowed["call_required"] else None
