@@ -19,6 +19,7 @@ from referee.wire import (
     BatchAnswer,
     ClockLedger,
     GameAnswer,
+    KeyList,
     MatchList,
     MatchRequest,
     MatchView,
@@ -98,9 +99,17 @@ class AsyncPooliad:
         """A match and how its games stand."""
         return await self._send(calls.match(match_id))
 
-    async def accept(self, match_id: str) -> MatchView:
-        """Accept a challenge."""
-        return await self._send(calls.accept(match_id))
+    async def accept(self, match_id: str, client_seed: str | None = None) -> MatchView:
+        """Accept a challenge; a seed of one's own (64 hexadecimal digits) is mixed into noise and racks."""
+        return await self._send(calls.accept(match_id, client_seed))
+
+    async def add_seed(self, match_id: str, client_seed: str) -> MatchView:
+        """Add a seed (64 hexadecimal digits) to the draw of a match that has not begun; once."""
+        return await self._send(calls.add_seed(match_id, client_seed))
+
+    async def keys(self) -> KeyList:
+        """The public keys that the server signs records with, the newest first."""
+        return await self._send(calls.keys())
 
     async def abort(self, match_id: str) -> MatchView:
         """Stop a match."""

@@ -18,22 +18,26 @@ from physics import Shot, Table, TableState
 from referee import Action, Decision
 from referee.wire import (
     TURN_MESSAGE,
+    AcceptRequest,
     AgentList,
     AgentToken,
     AgentView,
     BatchAnswer,
     BatchRequest,
+    ClientSeedRequest,
     ClockLedger,
     DecisionRequest,
     ForfeitRequest,
     GameAnswer,
     GameOver,
+    KeyList,
     MatchList,
     MatchOver,
     MatchRequest,
     MatchView,
     MinElevationAnswer,
     MinElevationRequest,
+    SeedWanted,
     ShotParameters,
     ShotRequest,
     ShotsPage,
@@ -46,7 +50,7 @@ from referee.wire.clocks import SupervisorsReason
 from referee.wire.matches import MatchStatus
 
 Model = TypeVar("Model", bound=BaseModel)
-TurnMessage = Turn | GameOver | MatchOver
+TurnMessage = Turn | SeedWanted | GameOver | MatchOver
 """What `turns` brings: it is your turn, a game is over, the match is over."""
 
 NO_CONTENT = 204
@@ -100,9 +104,21 @@ def match(match_id: str) -> Call[MatchView]:
     return Call("GET", f"/v1/matches/{match_id}", _reader(MatchView))
 
 
-def accept(match_id: str) -> Call[MatchView]:
-    """Accept a challenge."""
-    return Call("POST", f"/v1/matches/{match_id}/accept", _reader(MatchView), headers=_key())
+def accept(match_id: str, client_seed: str | None) -> Call[MatchView]:
+    """Accept a challenge, adding a seed to the draw or not."""
+    body = _json(AcceptRequest(client_seed=client_seed))
+    return Call("POST", f"/v1/matches/{match_id}/accept", _reader(MatchView), headers=_key(), body=body)
+
+
+def add_seed(match_id: str, client_seed: str) -> Call[MatchView]:
+    """Add a seed to the draw of a match that has not begun."""
+    body = _json(ClientSeedRequest(seed=client_seed))
+    return Call("POST", f"/v1/matches/{match_id}/seed", _reader(MatchView), headers=_key(), body=body)
+
+
+def keys() -> Call[KeyList]:
+    """The public keys that the server signs records with."""
+    return Call("GET", "/v1/keys", _reader(KeyList))
 
 
 def abort(match_id: str) -> Call[MatchView]:

@@ -11,7 +11,7 @@ from client.players import log
 from client.simulator import Simulator
 from physics import Table
 from referee import Action, EightBall, Game, Phase, SimulationBudget
-from referee.play import Budgets, MatchSeed, NoiseModel, Refused, Stroke
+from referee.play import LINKS, Budgets, MatchSeed, NoiseModel, Refused, Stroke
 from referee.play.local import BadAction, PlayedGame, Watch, play_match, points_of
 from referee.wire import GameOver, GameTerms, OutcomeView, View
 
@@ -57,7 +57,7 @@ def play(
 
     Args:
         agent_a, agent_b: the players of seat 0 and seat 1.
-        games: how many, at least 1; the break alternates.
+        games: how many, 1 to 1000; the break alternates.
         seed: repeats racks, first breaker, noise and the choices of shipped agents; drawn unless given.
         noise: level, 0 to 5; 1 is the Olympiad's.
         table: the Olympiad's unless given.
@@ -68,11 +68,11 @@ def play(
 
     Raises:
         client.errors.AgentNotFound: a name leads nowhere.
-        ValueError: fewer games than one, a seed, a level of noise or a number of simulations that is none, a
+        ValueError: a number of games, a seed, a level of noise or a number of simulations that is none, a
             start that cannot be played on from (`referee.InvalidGame`).
     """
-    if isinstance(games, bool) or not isinstance(games, int) or games < 1:
-        raise ValueError(f"games = {games!r}: must be an integer >= 1")
+    if isinstance(games, bool) or not isinstance(games, int) or not 1 <= games <= LINKS:
+        raise ValueError(f"games = {games!r}: must be an integer in [1, {LINKS}]")
     seed = secrets.randbelow(2**32) if seed is None else seed
     hall = _Hall((factory_of(agent_a, seed), factory_of(agent_b, seed)))
     players = titles(_name(agent_a), _name(agent_b))
@@ -174,13 +174,13 @@ def over_message(game: PlayedGame, seat: int, last: View, score: tuple[float, fl
     )  # fmt: skip
     return GameOver(
         game=header.game,
-        match=header.match,
+        match=header.terms.match,
         number=header.number,
         seat=seat,
         outcome=OutcomeView.of(outcome),
         won=None if outcome.winner is None else outcome.winner == seat,
         score=score,
-        noise_seed=game.seeds.noise.hex(),
+        noise_seed=game.seeds.noise_seed.hex(),
         record="",
         view=view,
     )

@@ -1,6 +1,7 @@
 """Play over a server until the match is over."""
 
 import logging
+import secrets
 import time
 from typing import NoReturn
 
@@ -13,7 +14,9 @@ from client.errors import Conflict, StaleVersion, Unprocessable
 from client.http import Pooliad
 from client.players import Players
 from client.retry import Retry
-from referee.wire import GameOver, MatchOver, Turn, View
+from referee.play.seeds import SEED_BYTES
+from referee.wire import GameOver, MatchOver, SeedWanted, Turn, View
+from referee.wire.matches import MatchStatus
 
 log = logging.getLogger("pooliad.agent")
 
@@ -92,6 +95,8 @@ class _Run:
         match message:
             case Turn(view=view):
                 self._play(view)
+            case SeedWanted(match=match_id):
+                self._add_seed(match_id)
             case GameOver() as over:
                 self._players.game_over(over)
         return message
@@ -121,6 +126,13 @@ class _Run:
             log.warning("game %s, version %d: %s; the turn is read again", view.game, view.version, error)
         return None
 
+    def _add_seed(self, match_id: str) -> None:
+        """Add to the draw, so that the server alone cannot have chosen it; too late is no harm."""
+        try:
+            self._server.add_seed(match_id, secrets.token_hex(SEED_BYTES))
+        except Conflict as error:
+            log.warning("match %s: no seed was added: %s", match_id, error)
+
     def _pace(self, failed: bool) -> None:
         """Pause after a failed try, longer after each."""
         self._failures = self._failures + 1 if failed else 0
@@ -134,7 +146,8 @@ class _Run:
         if over.match in self._played_in:
             return True
         agent = self._server.match(over.match).agents[over.seat]
-        return not self._server.matches(agent=agent, status="running").matches
+        unfinished: tuple[MatchStatus, ...] = ("opening", "running")
+        return not any(self._server.matches(agent=agent, status=status).matches for status in unfinished)
 
     def _missed_end(self) -> MatchOver | None:
         """The end of the match, when the message that told it was lost on its way."""

@@ -29,7 +29,6 @@ from referee.play import (
     Refused,
     SimulationBudget,
     Stroke,
-    commitment,
     play_stroke,
     start_game,
 )
@@ -64,7 +63,6 @@ __all__ = [
     "Ruling",
     "SimulationBudget",
     "Stroke",
-    "commitment",
     "play_stroke",
     "start_game",
 ]

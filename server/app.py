@@ -11,11 +11,13 @@ from starlette.exceptions import HTTPException
 from server import failpoints, openapi
 from server.errors import ServerError, handle_fault, handle_framework_error, handle_server_error
 from server.routes import ROUTERS
+from server.security import keys
 from server.security.body_gate import BodyGate
 from server.services import warmup
 from server.services.context import Context
 from server.services.heartbeat import Heartbeat
 from server.services.house_bots import House
+from server.services.matches import abort_foreign
 from server.services.relay import Relay
 from server.services.spectators import Spectators
 from server.services.timer import Timer
@@ -62,6 +64,9 @@ def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManag
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         context.database.membership.enter()
         upgrade(context.database)
+        with context.writing() as writing:
+            keys.ensure(writing.connection, writing.now)
+        abort_foreign(context)
         context.wakeups.start()
         warmup.start(context)
         parts = Relay(context), Heartbeat(context), Timer(context), app.state.spectators, app.state.house

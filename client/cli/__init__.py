@@ -4,7 +4,7 @@ import sys
 
 import typer
 
-from client.cli import agent, backup, bench, demo, doctor, replay, serve, simulate, tournament
+from client.cli import agent, backup, bench, demo, doctor, keys, replay, serve, simulate, tournament
 from client.cli.output import FAILED
 
 
@@ -26,6 +26,7 @@ def application() -> typer.Typer:
     app.add_typer(agent.commands(), name="agent")
     app.add_typer(replay.commands(), name="replay")
     app.add_typer(tournament.commands(), name="tournament")
+    app.add_typer(keys.commands(), name="keys")
     return app
 
 

@@ -42,15 +42,26 @@ def show(
         fail(f"{file} is no whole record of a game: {error!r}")
 
 
-def verify(file: File, as_json: Json = False) -> None:
-    """Play a record again from its seeds and actions, and compare every bit.
+def verify(
+    file: File,
+    key: Annotated[
+        str | None,
+        typer.Option(
+            help="Whose signature it must bear: a server's address, a public key (64 hexadecimal digits), or a file."
+        ),
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Play a record again from its secrets and actions, compare every bit, and check chain and signature.
 
-    Leaves with 1 and names the first difference when the record is not what really follows.
+    Leaves with 1 and names the first difference when the record is not what really follows, a line does not
+    continue the one before it, or the signature is not the given key's.
     """
+    from client.cli.keys import read_keys
     from referee.record import verify_record
 
     try:
-        found = verify_record(file)
+        found = verify_record(file, None if key is None else read_keys(key))
     except (OSError, UnicodeDecodeError) as error:
         fail(f"{file} cannot be read: {error}", USAGE)
     if as_json:
@@ -70,6 +81,9 @@ def _verification(file: Path, found: "Verification") -> dict[str, Any]:
         "strokes": found.strokes,
         "outcome": None if found.outcome is None else found.outcome.to_dict(),
         "difference": None if found.difference is None else asdict(found.difference),
+        "needs": None if found.needs is None else found.needs.to_dict(),
+        "chain": None if found.chain is None else asdict(found.chain),
+        "signature": None if found.seal is None else asdict(found.seal),
         "words": str(found),
     }
 

@@ -85,7 +85,9 @@ class Stage:
         """Keep a finished game's record and say how it ended."""
         record = self._directory / f"game-{game.number + 1}.jsonl"
         record.write_bytes(organiser.record(game.id))
-        value = tally.value(game, match.players, record)
+        keys = self._directory / "keys.json"
+        keys.write_text(organiser.keys().model_dump_json(indent=2) + "\n", encoding="utf-8")
+        value = tally.value(game, match.players, record, keys)
         self._games.append(value)
         for line in summary(value, match.players):
             self._say(line)

@@ -38,8 +38,8 @@ class GameTally:
             self.called[seat] += 1
             self.made[seat] += stroke.ruling.made
 
-    def value(self, game: GameSummary, players: tuple[str, str], record: Path) -> dict[str, Any]:
-        """Everything about the game, as JSON."""
+    def value(self, game: GameSummary, players: tuple[str, str], record: Path, keys: Path) -> dict[str, Any]:
+        """Everything about the game, as JSON; `keys` is the file with those that the record is signed with."""
         outcome = game.outcome
         winner = None if outcome is None else outcome.winner
         return {
@@ -57,5 +57,5 @@ class GameTally:
             "made": self.made,
             "simulated_seconds": round(self.simulated, 3),
             "record": str(record),
-            "verify": f"pooliad replay verify {shlex.quote(str(record))}",
+            "verify": f"pooliad replay verify {shlex.quote(str(record))} --key {shlex.quote(str(keys))}",
         }

@@ -6,10 +6,11 @@
 from referee.play.budget import Budgets, BudgetSpent, SimulationBudget
 from referee.play.clock import Charge, Clocks, LagAllowance, nanoseconds
 from referee.play.noise import NoiseModel
-from referee.play.seeds import GameSeeds, MatchSeed, commitment, seed_from_hex
-from referee.play.stroke import Refused, Stroke, begin_game, play_stroke, start_game
+from referee.play.seeds import LINKS, GameSeeds, MatchSeed, client_seeds_from_hex, seed_from_hex
+from referee.play.stroke import Refused, Stroke, play_stroke, start_game
 
 __all__ = [
+    "LINKS",
     "BudgetSpent",
     "Budgets",
     "Charge",
@@ -21,8 +22,7 @@ __all__ = [
     "Refused",
     "SimulationBudget",
     "Stroke",
-    "begin_game",
-    "commitment",
+    "client_seeds_from_hex",
     "nanoseconds",
     "play_stroke",
     "seed_from_hex",

@@ -10,8 +10,8 @@ from referee.play.budget import Budgets, budgets
 from referee.play.clock import SECOND_NS, Clocks
 from referee.play.noise import NoiseModel
 from referee.play.seeds import GameSeeds, MatchSeed
-from referee.play.stroke import Refused, Stroke, begin_game, play_stroke, start_game
-from referee.record import Header, canonical, end_entry, record_lines, stroke_entry
+from referee.play.stroke import Refused, Stroke, play_stroke
+from referee.record import Chain, Header, MatchTerms, end_entry, record_lines, stroke_entry, unsigned_seal
 from referee.rules import EightBall
 from referee.wire import BudgetView, ClockView, GameTerms, NoiseView, StrokeView, View
 from referee.wire.strokes import since_own_last
@@ -73,7 +73,8 @@ class Watch:
     Attributes:
         on_stroke: after every stroke and decision.
         on_refusal: after every bad action.
-        on_line: every line of the record but the last, the moment it is final; the first before the break.
+        on_line: every line of the record but the last two (``PlayedGame.last_lines``), the moment it is final; the
+            first before the break.
     """
 
     on_stroke: Callable[[Stroke], Any] = lambda stroke: None
@@ -106,9 +107,11 @@ class PlayedGame:
         timed = zip(self.strokes, self.elapsed_ns, strict=True)
         return record_lines(self.header, timed, self.outcome, self.seeds, self.after_ns)
 
-    def last_line(self) -> str:
-        """The record's last line, which completes those that ``Watch.on_line`` was told."""
-        return canonical(end_entry(len(self.strokes), self.outcome, self.seeds, self.after_ns))
+    def last_lines(self, head: str) -> tuple[str, str]:
+        """The lines that complete those which ``Watch.on_line`` was told, ``head`` being the last one's digest."""
+        chain = Chain(head)
+        end = chain.add(end_entry(len(self.strokes), self.outcome, self.seeds, self.after_ns))
+        return end, chain.add(unsigned_seal())
 
 
 def play_game(
@@ -117,11 +120,12 @@ def play_game(
     seeds: GameSeeds,
     noise: NoiseModel,
     *,
-    breaker: int = 0,
+    breaker: int | None = 0,
     position: Game | None = None,
     players: tuple[str, str] = ("seat 0", "seat 1"),
     number: int = 0,
-    games: int = 1,
+    games: int | None = None,
+    pairs: bool = False,
     score: tuple[float, float] = (0.0, 0.0),
     budget: Budgets | None = None,
     watch: Watch | None = None,
@@ -139,31 +143,38 @@ def play_game(
         chairs: the choosers, by seat.
         seeds: of the game.
         noise: of the game.
-        breaker: the seat that breaks.
-        position: where to begin instead of a break, of ``EightBall.begin_from``.
+        breaker: the seat that breaks this game; None: the one that the seeds draw for the match.
+        position: where the match's games begin instead of a break, the seats exchanged in every second one.
         players: names, by seat.
-        number, games, score: of the match, for the views.
+        number, games, score: of the match; as many games as ``number`` needs unless told.
+        pairs: whether the match's games share racks by pairs, as in ``MatchSeed.game``.
         budget: of simulated shots, by seat; whoever simulates for a chooser spends it.
         watch: who is told what.
         match, game: their ids in views and record; the game's is ``local-NUMBER`` unless given.
         timing: clocks; None plays without.
     """
     budget = budget or budgets(None)
-    start = position or start_game(rules, seeds, breaker)
-    header = Header.of(
-        rules,
-        start,
-        seeds,
-        noise,
-        game=game or f"local-{number}",
+    terms = MatchTerms(
         match=match,
+        games=number + 1 if games is None else games,
+        rules=rules,
+        noise=noise,
+        shared_racks=seeds.shared_racks,
+        paired_racks=pairs,
+        first_breaker=None if breaker is None else (breaker + number) % 2,
+        position=position,
+    )
+    header = Header.of(
+        terms,
+        terms.start(seeds, number),
+        seeds,
+        game=game or f"local-{number}",
         number=number,
         players=players,
         allowance_ns=timing.allowance_ns if timing else None,
-        given=position is not None,
     )
-    terms = _terms(header, games, budget[0].allowed)
-    return _Table(header, chairs, seeds, terms, score, budget, watch or Watch(), timing).play()
+    shown = _terms(header, budget[0].allowed)
+    return _Table(header, chairs, seeds, shown, score, budget, watch or Watch(), timing).play()
 
 
 def play_match(
@@ -175,6 +186,7 @@ def play_match(
     *,
     position: Game | None = None,
     players: tuple[str, str] = ("seat 0", "seat 1"),
+    pairs: bool = False,
     simulations: int | None = None,
     watch: Watch | None = None,
 ) -> Iterator[PlayedGame]:
@@ -184,7 +196,8 @@ def play_match(
         seat_players: called with each game's number and its budgets of simulated shots; gives the choosers for that
             game, fresh ones if need be.
         seed: everything random comes from it.
-        games: how many.
+        games: how many, at most 1000.
+        pairs: games 0 and 1, 2 and 3, ... have the same racks.
         simulations: shots that each player may simulate in a game; None for any number.
         position: where every game begins instead of a break, the seats exchanged in every second one.
         rules, noise, players, watch: as for ``play_game``.
@@ -195,13 +208,14 @@ def play_match(
         played = play_game(
             rules,
             seat_players(number, budget),
-            seed.game(number),
+            seed.game(number, pairs=pairs),
             noise,
-            breaker=seed.breaker(number),
-            position=None if position is None else begin_game(rules, seed, number, position),
+            breaker=None,
+            position=position,
             players=players,
             number=number,
             games=games,
+            pairs=pairs,
             score=score,
             budget=budget,
             watch=watch,
@@ -235,6 +249,7 @@ class _Table:
     history: list[StrokeView] = field(default_factory=list)
     elapsed: list[int | None] = field(default_factory=list)
     clocks: Clocks | None = None
+    chain: Chain = field(default_factory=Chain)
 
     def play(self) -> PlayedGame:
         """Play to the end."""
@@ -250,7 +265,7 @@ class _Table:
             except Lost as lost:
                 last = self._now() - started
                 after_ns = (last, 0) if game.turn == 0 else (0, last)
-                game = self.header.rules.end(game, lost.reason, game.turn).game
+                game = self.header.terms.rules.end(game, lost.reason, game.turn).game
             else:
                 game = self._kept(stroke, elapsed)
         simulated = self.budget[0].used, self.budget[1].used
@@ -273,11 +288,11 @@ class _Table:
 
     def _turn(self, game: Game) -> Stroke:
         """The stroke of the player in turn; raises ``Lost``, after too many bad actions too."""
-        view = self._view(game)
+        view, terms = self._view(game), self.header.terms
         for attempt in range(1, TRIES + 1):
             try:
                 action = self._asked(game.turn, view)
-                return play_stroke(self.header.rules, game, action, self.seeds, self.header.noise)
+                return play_stroke(terms.rules, game, action, self.seeds, terms.noise)
             except (BadAnswer, Refused) as error:
                 reason = error.__cause__ if isinstance(error.__cause__, Exception) else error
                 self.watch.on_refusal(BadAction(game.turn, attempt, reason))
@@ -306,7 +321,7 @@ class _Table:
     def _tell(self, line: Callable[[], dict[str, Any]]) -> None:
         """Hand a line of the record to whoever wants it."""
         if self.watch.on_line:
-            self.watch.on_line(canonical(line()))
+            self.watch.on_line(self.chain.add(line()))
 
     def _view(self, game: Game) -> View:
         seat = game.turn
@@ -326,16 +341,17 @@ class _Table:
         return ClockView(seconds_left=left, running=seat == turn, simulations_left=simulations)
 
 
-def _terms(header: Header, games: int, simulations: int | None) -> GameTerms:
-    limits, noise = header.rules.limits, header.noise
+def _terms(header: Header, simulations: int | None) -> GameTerms:
+    terms = header.terms
+    limits, noise = terms.rules.limits, terms.noise
     return GameTerms(
         game=header.game,
-        match=header.match,
+        match=terms.match,
         number=header.number,
-        games=games,
+        games=terms.games,
         players=header.players,
         rules="eight_ball",
-        table=header.rules.table.to_dict(),
+        table=terms.rules.table.to_dict(),
         noise=NoiseView(told=noise.told, level=noise.level if noise.told else None),
         budget=None if simulations is None else BudgetView(simulations=simulations, counted="by_driver"),
         dry_visits_limit=limits.dry_visits,

@@ -11,7 +11,7 @@ from physics.shot import FIELDS
 from referee.errors import RefereeError
 from referee.game import Action, Game, Refusal, Ruling
 from referee.play.noise import NoiseModel
-from referee.play.seeds import GameSeeds, MatchSeed
+from referee.play.seeds import GameSeeds
 from referee.rules import EightBall
 from referee.rules.checks import start_state
 
@@ -66,21 +66,6 @@ def start_game(rules: EightBall, seeds: GameSeeds, breaker: int = 0) -> Game:
     return rules.new_game(seeds.rack(0), breaker=breaker)
 
 
-def begin_game(rules: EightBall, seed: MatchSeed, number: int, position: Game | None = None) -> Game:
-    """The ``number``-th game of a match before its first stroke.
-
-    Args:
-        rules: the referee, on its table.
-        seed: of the match: racks, and who breaks.
-        number: of the game, from 0.
-        position: where every game of the match begins instead of a break, the seats exchanged in every
-            second one; of ``EightBall.begin_from``.
-    """
-    if position is None:
-        return start_game(rules, seed.game(number), seed.breaker(number))
-    return position.exchanged() if number % 2 else position
-
-
 def play_stroke(
     rules: EightBall,
     game: Game,
@@ -111,7 +96,7 @@ def play_stroke(
         ruling = rules.apply(game, action, None, None)
         return Stroke(game.turn, None, action, game.state, None, None, ruling, _racked(rules, ruling, game, seeds))
     before = start_state(game, action)
-    shot = noise.perturb(action.shot, seeds.noise, game.stroke)
+    shot = noise.perturb(action.shot, seeds.noise_seed, game.stroke)
     result = simulate(rules.table, before, shot, trace=trace)
     ruling = rules.apply(game, action, result.facts, result.final)
     after = _racked(rules, ruling, game, seeds)

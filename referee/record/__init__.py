@@ -1,26 +1,43 @@
-"""The record of a game: canonical JSON lines, and their verification with nothing else at hand."""
+"""The record of a game: chained and signed JSON lines, the commitment they rest on, and their verification.
+
+Nothing else is needed at hand; a signature needs the public key.
+"""
 
 from referee.record.canonical import canonical
+from referee.record.chain import GENESIS, Chain, ChainFault, line_digest
+from referee.record.commitment import FORMAT, MatchTerms
 from referee.record.difference import Difference
 from referee.record.engine import Engine, this_engine
-from referee.record.lines import FORMAT, Header, end_entry, record_lines, stroke_entry
+from referee.record.lines import Header, end_entry, record_lines, stroke_entry
 from referee.record.reading import InvalidRecord, Record, read_record
+from referee.record.signing import PublicKey, Seal, SealState, SigningKey, signed_seal, unsigned_seal
 from referee.record.verification import Verdict, Verification, verify_record
 
 __all__ = [
     "FORMAT",
+    "GENESIS",
+    "Chain",
+    "ChainFault",
     "Difference",
     "Engine",
     "Header",
     "InvalidRecord",
+    "MatchTerms",
+    "PublicKey",
     "Record",
+    "Seal",
+    "SealState",
+    "SigningKey",
     "Verdict",
     "Verification",
     "canonical",
     "end_entry",
+    "line_digest",
     "read_record",
     "record_lines",
+    "signed_seal",
     "stroke_entry",
     "this_engine",
+    "unsigned_seal",
     "verify_record",
 ]

@@ -1,24 +1,22 @@
-"""The record of a game as JSON lines: a header, a line for every stroke or decision, the end with the seeds.
+"""The record of a game as JSON lines: a header, a line for every stroke or decision, the end with the secrets, a seal.
 
-The header is written before the break and holds the commitment, never a seed; the last line reveals the
-seeds. Every line is a JSON object of its own with ``type`` first to look at, so that lines can be appended as
-the game goes on.
+The header is written before the break and holds the commitment, never a secret; the line at the end reveals
+them. Every line is a JSON object of its own, chained to the one before it, so that lines can be appended as the
+game goes on.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any, Final
+from dataclasses import dataclass
+from typing import Any
 
 from physics.status import Status
-from physics.table import Table
 from referee.errors import InvalidGame
 from referee.game import Game, Outcome
-from referee.play import GameSeeds, NoiseModel, Stroke
-from referee.record.canonical import canonical
-from referee.record.engine import Engine, this_engine
-from referee.rules import EightBall, Limits
-
-FORMAT: Final = "pooliad/1"
+from referee.play import GameSeeds, Stroke, client_seeds_from_hex
+from referee.play.seeds import ClientSeeds
+from referee.record.chain import Chain
+from referee.record.commitment import FORMAT, MatchTerms
+from referee.record.signing import unsigned_seal
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,76 +24,65 @@ class Header:
     """All that is fixed before the break.
 
     Attributes:
-        game, match: ids. number: of the game in its match, from 0.
+        terms: those of the match.
+        game: id. number: of the game in its match, from 0.
         players: names, by seat.
-        rules: the referee with table and limits.
-        noise: its level and whether the players were told.
         allowance_ns: thinking time of each player; None without clocks.
-        commitment: SHA-256 of the noise seed.
+        client_seeds: what the players added to the draw, after the commitment.
+        commitment: to the terms and the secrets (``MatchTerms.commitment``).
         start: the game before its first stroke: the balls racked, or the position that was given.
-        given: whether that position was given by whoever made the match, instead of a break.
-        engine: what the game is played with.
     """
 
+    terms: MatchTerms
     game: str
-    match: str
     number: int
     players: tuple[str, str]
-    rules: EightBall
-    noise: NoiseModel
     allowance_ns: int | None
+    client_seeds: ClientSeeds
     commitment: str
     start: Game
-    given: bool
-    engine: Engine
+
+    def __post_init__(self) -> None:
+        number, games = self.number, self.terms.games
+        if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < games:
+            raise InvalidGame("number", number, f"must be an integer in [0, {games}), the match having {games} games")
 
     @classmethod
     def of(
         cls,
-        rules: EightBall,
+        terms: MatchTerms,
         start: Game,
         seeds: GameSeeds,
-        noise: NoiseModel,
         *,
         game: str,
-        match: str,
         number: int = 0,
         players: tuple[str, str],
         allowance_ns: int | None = None,
-        given: bool = False,
     ) -> "Header":
-        """The header of a game about to be played with the running engine."""
+        """The header of a game about to be played."""
         return cls(
+            terms=terms,
             game=game,
-            match=match,
             number=number,
             players=players,
-            rules=rules,
-            noise=noise,
             allowance_ns=allowance_ns,
-            commitment=seeds.commitment,
+            client_seeds=seeds.client_seeds,
+            commitment=terms.commitment(seeds, number),
             start=start,
-            given=given,
-            engine=this_engine(),
         )
 
     def to_dict(self) -> dict[str, Any]:
         """The header line's object."""
         return {
             "type": "game",
-            "format": FORMAT,
-            "engine": self.engine.to_dict(),
+            **self.terms.to_dict(),
             "game": self.game,
-            "match": self.match,
             "number": self.number,
             "players": list(self.players),
-            "rules": {"name": "eight_ball", "limits": asdict(self.rules.limits)},
-            "table": self.rules.table.to_dict(),
-            "noise": {"level": self.noise.level, "told": self.noise.told},
             "allowance_ns": self.allowance_ns,
+            "client_seeds": [None if seed is None else seed.hex() for seed in self.client_seeds],
             "commitment": self.commitment,
             "start": self.start.to_dict(),
-            "given": self.given,
         }
 
     @classmethod
@@ -109,18 +96,16 @@ class Header:
             raise InvalidGame("format", values.get("format"), f"must be {FORMAT!r}")
         try:
             first, second = values["players"]
+            own_first, own_second = values["client_seeds"]
             return cls(
+                terms=MatchTerms.from_dict(values),
                 game=values["game"],
-                match=values["match"],
                 number=values["number"],
                 players=(first, second),
-                rules=EightBall(Table.from_dict(values["table"]), Limits(**values["rules"]["limits"])),
-                noise=NoiseModel(**values["noise"]),
                 allowance_ns=values["allowance_ns"],
+                client_seeds=client_seeds_from_hex((own_first, own_second)),
                 commitment=values["commitment"],
                 start=Game.from_dict(values["start"]),
-                given=_flag("given", values["given"]),
-                engine=Engine.from_dict(values["engine"]),
             )
         except (KeyError, TypeError, AttributeError) as error:
             raise InvalidGame("header", sorted(values), f"a header of format {FORMAT}: {error!r}") from None
@@ -148,7 +133,7 @@ def stroke_entry(stroke: Stroke, entry: int, elapsed_ns: int | None = None) -> d
 
 
 def end_entry(entries: int, outcome: Outcome, seeds: GameSeeds, elapsed_ns: Sequence[int] = (0, 0)) -> dict[str, Any]:
-    """The object of the last line.
+    """The object of the line that ends the game and reveals its secrets.
 
     Args:
         entries: how many strokes and decisions there were.
@@ -161,8 +146,8 @@ def end_entry(entries: int, outcome: Outcome, seeds: GameSeeds, elapsed_ns: Sequ
         "entries": entries,
         "outcome": outcome.to_dict(),
         "elapsed_ns": list(elapsed_ns),
-        "noise_seed": seeds.noise.hex(),
-        "rack_seed": seeds.racks.hex(),
+        "noise_secret": seeds.noise.hex(),
+        "rack_secret": seeds.racks.hex(),
     }
 
 
@@ -173,19 +158,21 @@ def record_lines(
     seeds: GameSeeds,
     elapsed_ns: Sequence[int] = (0, 0),
 ) -> Iterator[str]:
-    """The whole record of a finished game, line by line, without line ends.
+    """The whole record of a finished game, chained and unsigned, line by line, without line ends.
 
     Args:
         header: of the game.
         strokes: each with the thinking time charged for it.
         outcome, seeds, elapsed_ns: as for ``end_entry``.
     """
-    yield canonical(header.to_dict())
+    chain = Chain()
+    yield chain.add(header.to_dict())
     entries = 0
     for stroke, elapsed in strokes:
-        yield canonical(stroke_entry(stroke, entries, elapsed))
+        yield chain.add(stroke_entry(stroke, entries, elapsed))
         entries += 1
-    yield canonical(end_entry(entries, outcome, seeds, elapsed_ns))
+    yield chain.add(end_entry(entries, outcome, seeds, elapsed_ns))
+    yield chain.add(unsigned_seal())
 
 
 def _played(stroke: Stroke) -> dict[str, Any]:
@@ -201,9 +188,3 @@ def _played(stroke: Stroke) -> dict[str, Any]:
         "duration": result.duration,
         "final": result.final.to_dict(),
     }
-
-
-def _flag(field: str, value: Any) -> bool:
-    if not isinstance(value, bool):
-        raise InvalidGame(field, value, "true or false")
-    return value

@@ -1,4 +1,4 @@
-"""Verification: play a recorded game again from its seeds and actions, and compare everything.
+"""Verification: play a recorded game again from its secrets and actions, and compare everything.
 
 Nothing but the record is needed, and nothing in it is believed except who asked for what, how long they
 thought, and how a game that no stroke decided was ended.
@@ -6,19 +6,21 @@ thought, and how a game that no stroke decided was ended.
 
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any, TypeVar
 
 from physics.errors import PhysicsError
 from referee.errors import InvalidGame, RefereeError
 from referee.game import Action, EndReason, Game, Outcome
-from referee.play import Clocks, GameSeeds, Refused, play_stroke, seed_from_hex, start_game
+from referee.play import Clocks, GameSeeds, Refused, play_stroke, seed_from_hex
 from referee.record.canonical import plain
+from referee.record.chain import PREVIOUS, ChainFault, chain_fault
 from referee.record.difference import Difference, first_difference
 from referee.record.engine import Engine, this_engine
 from referee.record.lines import Header, end_entry, stroke_entry
 from referee.record.reading import InvalidRecord, Record, read_record
+from referee.record.signing import PublicKey, Seal, SealState, check_seal
 
 T = TypeVar("T")
 
@@ -27,9 +29,13 @@ class Verdict(StrEnum):
     """What verification found."""
 
     VERIFIED = "verified"
-    """Everything follows from the seeds and the actions, to the last bit."""
+    """Everything follows from the secrets and the actions, to the last bit; chain and signature are whole."""
     DIFFERENT = "different"
     """Something does not follow; the difference says what."""
+    BROKEN_CHAIN = "broken_chain"
+    """A line does not continue the one before it; the chain's fault says which."""
+    BAD_SIGNATURE = "bad_signature"
+    """The seal is not what the given keys sign; its problem says why."""
     OTHER_ENGINE = "other_engine"
     """The record was made with another engine, which is needed to verify it."""
     MALFORMED = "malformed"
@@ -41,11 +47,13 @@ class Verification:
     """The answer of ``verify_record``.
 
     Attributes:
-        verdict: see there.
+        verdict: the gravest finding; chain and seal are told beside any other.
         strokes: how many strokes and decisions were verified.
-        outcome: of the game, when verified.
+        outcome: of the game, when everything follows.
         difference: the first one.
-        needs: the engine that is needed; this_is: the one that is running.
+        needs: the engine that is needed, when it is another than the one that is running.
+        chain: where the chain is broken; None if it is whole.
+        seal: what is known of the signature; None for a malformed record.
         problem: why the record is malformed, in words.
     """
 
@@ -54,6 +62,8 @@ class Verification:
     outcome: Outcome | None = None
     difference: Difference | None = None
     needs: Engine | None = None
+    chain: ChainFault | None = None
+    seal: Seal | None = None
     problem: str | None = None
 
     @property
@@ -62,34 +72,61 @@ class Verification:
         return self.verdict is Verdict.VERIFIED
 
     def __str__(self) -> str:
-        match self.verdict:
-            case Verdict.VERIFIED:
-                return f"verified: {self.strokes} strokes and decisions follow from the seeds, bit for bit"
-            case Verdict.DIFFERENT:
-                return f"different after {self.strokes} good lines: {self.difference}"
-            case Verdict.OTHER_ENGINE:
-                return f"this record needs {self.needs}; this is {this_engine()}"
-            case Verdict.MALFORMED:
-                return f"malformed: {self.problem}"
+        parts = (self._finding(), self.chain and f"broken chain: {self.chain}", self.seal)
+        return "; ".join(str(part) for part in parts if part is not None)
+
+    def _finding(self) -> str | None:
+        """What the game played again has shown."""
+        if self.verdict is Verdict.MALFORMED:
+            return f"malformed: {self.problem}"
+        if self.needs is not None:
+            return f"this record needs {self.needs}; this is {this_engine()}"
+        if self.difference is not None:
+            return f"different after {self.strokes} good lines: {self.difference}"
+        words = f"{self.strokes} strokes and decisions follow from the secrets, bit for bit"
+        return f"verified: {words}" if self.ok else f"not verified, although {words}"
 
 
-def verify_record(source: str | os.PathLike[str] | Iterable[str]) -> Verification:
-    """Play a recorded game again and compare: racks, noise, every event, rulings, result.
+def verify_record(
+    source: str | os.PathLike[str] | Iterable[str], keys: Iterable[PublicKey] | None = None
+) -> Verification:
+    """Play a recorded game again and compare: racks, noise, every event, rulings, result; check chain and signature.
 
     Args:
         source: path of a record, or its lines.
+        keys: public keys one of which must have signed it; None: the signature is not checked.
 
     Raises:
         OSError: the file cannot be read.
     """
     try:
         record = read_record(source)
-        engine = _read("engine", Engine.from_dict, record.header.get("engine"), 1)
-        if engine != this_engine():
-            return Verification(Verdict.OTHER_ENGINE, needs=engine)
-        return _Replay(record, Header.from_dict(record.header)).run()
-    except (RefereeError, PhysicsError, ValueError) as error:
+        chain = chain_fault(record.lines, record.objects)
+    except (RefereeError, ValueError) as error:
         return Verification(Verdict.MALFORMED, problem=str(error))
+    try:
+        found = _replayed(record)
+        seal = _read("seal", lambda values: check_seal(values, keys), record.seal, len(record.lines))
+    except (RefereeError, PhysicsError, ValueError) as error:
+        return Verification(Verdict.MALFORMED, problem=str(error), chain=chain)
+    verdict = found.verdict
+    if verdict is not Verdict.DIFFERENT and chain is not None:
+        verdict = Verdict.BROKEN_CHAIN
+    elif verdict is not Verdict.DIFFERENT and seal.state is SealState.INVALID:
+        verdict = Verdict.BAD_SIGNATURE
+    return replace(found, verdict=verdict, chain=chain, seal=seal)
+
+
+def _replayed(record: Record) -> Verification:
+    """What the game shows when it is played again, chain and seal left aside."""
+    engine = _read("engine", Engine.from_dict, record.header.get("engine"), 1)
+    if engine != this_engine():
+        return Verification(Verdict.OTHER_ENGINE, needs=engine)
+    try:
+        header = Header.from_dict(record.header)
+    except (RefereeError, PhysicsError, ValueError) as error:
+        raise InvalidRecord("line 1", record.header.get("game"), f"must be a header: {error}") from None
+    return _Replay(record, header).run()
 
 
 class _Replay:
@@ -98,12 +135,12 @@ class _Replay:
     def __init__(self, record: Record, header: Header) -> None:
         self.record = record
         self.header = header
-        self.seeds = _seeds(record.end)
+        self.seeds = _seeds(record.end, header, len(record.lines) - 1)
         self.charges: list[tuple[int, int]] = []
 
     def run(self) -> Verification:
         """Verify the whole record."""
-        game = self._start()
+        game = self.header.terms.start(self.seeds, self.header.number)
         if difference := self._header(game):
             return Verification(Verdict.DIFFERENT, difference=difference)
         for number, entry in enumerate(self.record.entries):
@@ -117,15 +154,11 @@ class _Replay:
             return Verification(Verdict.DIFFERENT, strokes, difference=found_end)
         return Verification(Verdict.VERIFIED, strokes, outcome=found_end)
 
-    def _start(self) -> Game:
-        """The game before its first stroke: a position that was given has to be one, a rack follows from its seed."""
-        rules, start = self.header.rules, self.header.start
-        return rules.begin_from(start) if self.header.given else start_game(rules, self.seeds, start.breaker)
-
     def _header(self, game: Game) -> Difference | None:
-        """The commitment and the first rack follow from the revealed seeds; nothing else is in the header."""
-        derived = self.header.to_dict() | {"commitment": self.seeds.commitment, "start": game.to_dict()}
-        return first_difference(self.record.header, plain(derived), line=1)
+        """The commitment, breaker and first rack follow from the revealed secrets; nothing else is in the header."""
+        commitment = self.header.terms.commitment(self.seeds, self.header.number)
+        derived = self.header.to_dict() | {"commitment": commitment, "start": game.to_dict()}
+        return _difference(self.record.header, derived, line=1)
 
     def _stroke(self, game: Game, entry: Mapping[str, Any], number: int) -> Game | Difference:
         """The game after one line, or where the line departs from what follows."""
@@ -136,11 +169,10 @@ class _Replay:
             self.charges.append((game.turn, _charge(elapsed_ns, line)))
         index = None if action.shot is None else game.stroke
         try:
-            stroke = play_stroke(self.header.rules, game, action, self.seeds, self.header.noise)
+            stroke = play_stroke(self.header.terms.rules, game, action, self.seeds, self.header.terms.noise)
         except Refused as refused:
             return Difference(line, index, None, None, "action", entry["action"], f"refused: {refused}")
-        derived = plain(stroke_entry(stroke, number, elapsed_ns))
-        return first_difference(entry, derived, line, index) or stroke.game
+        return _difference(entry, stroke_entry(stroke, number, elapsed_ns), line, index) or stroke.game
 
     def _end(self, game: Game) -> Outcome | Difference:
         """The outcome, if it is the game's own or one that may end it from outside."""
@@ -155,8 +187,8 @@ class _Replay:
         outcome = game.outcome or self._ended_outside(game, recorded)
         if outcome is None:
             return Difference(line, None, None, None, "outcome", recorded.to_dict(), "no end: the game goes on")
-        derived = plain(end_entry(len(self.record.entries), outcome, self.seeds, elapsed_ns))
-        return first_difference(end, derived, line) or outcome
+        derived = end_entry(len(self.record.entries), outcome, self.seeds, elapsed_ns)
+        return _difference(end, derived, line) or outcome
 
     def _ended_outside(self, game: Game, recorded: Outcome) -> Outcome | None:
         """The outcome when ``game`` is ended for the recorded reason; None if that cannot end it."""
@@ -164,7 +196,7 @@ class _Replay:
         if recorded.reason is EndReason.TIME_OUT and not self._is_out_of_time(loser):
             return None
         try:
-            return self.header.rules.end(game, recorded.reason, loser).game.outcome
+            return self.header.terms.rules.end(game, recorded.reason, loser).game.outcome
         except InvalidGame:
             return None
 
@@ -175,9 +207,18 @@ class _Replay:
         return Clocks.from_charges(allowance_ns, self.charges).is_out_of_time(seat)
 
 
-def _seeds(end: Mapping[str, Any]) -> GameSeeds:
-    """The revealed seeds of the last line."""
-    return GameSeeds(seed_from_hex(end.get("noise_seed", "")), seed_from_hex(end.get("rack_seed", "")))
+def _difference(
+    recorded: Mapping[str, Any], derived: Mapping[str, Any], line: int, stroke: int | None = None
+) -> Difference | None:
+    """The first difference of a line; the chain is looked at by itself."""
+    chained = plain(derived) | {PREVIOUS: recorded.get(PREVIOUS)}
+    return first_difference(recorded, chained, line, stroke)
+
+
+def _seeds(end: Mapping[str, Any], header: Header, line: int) -> GameSeeds:
+    """The game's seeds: the revealed secrets, and what the players added."""
+    noise, racks = (_read(name, seed_from_hex, end.get(name), line) for name in ("noise_secret", "rack_secret"))
+    return GameSeeds(noise, racks, header.client_seeds, header.terms.shared_racks)
 
 
 def _charge(elapsed_ns: Any, line: int) -> int:

@@ -3,7 +3,19 @@
 from referee.wire.agents import AgentList, AgentRequest, AgentToken, AgentView
 from referee.wire.answers import ShotsPage, StrokeAnswer
 from referee.wire.clocks import ChargeView, ClockLedger, ForfeitRequest, SeatLedger
-from referee.wire.matches import GameAnswer, GameSummary, MatchList, MatchRequest, MatchStatus, MatchView
+from referee.wire.keys import KeyList, KeyView
+from referee.wire.matches import (
+    AcceptRequest,
+    ClientSeedRequest,
+    GameAnswer,
+    GameSummary,
+    MatchList,
+    MatchRequest,
+    MatchStatus,
+    MatchView,
+    RackTerms,
+    RackView,
+)
 from referee.wire.outcomes import (
     BallStateView,
     EventView,
@@ -33,12 +45,13 @@ from referee.wire.shots import (
 from referee.wire.streams import ManyEvent, StreamClocks, StreamConnections, StreamResult, of_many
 from referee.wire.strokes import StrokeDetail, StrokeView
 from referee.wire.terms import BudgetView, ClockTerms, ClockView, NoiseTerms, NoiseView
-from referee.wire.turns import TURN_MESSAGE, GameOver, MatchOver, Turn, TurnMessage
+from referee.wire.turns import TURN_MESSAGE, GameOver, MatchOver, SeedWanted, Turn, TurnMessage
 from referee.wire.view import Allowed, Area, GameTerms, View
 
 __all__ = [
     "PROBLEM_JSON",
     "TURN_MESSAGE",
+    "AcceptRequest",
     "AgentList",
     "AgentRequest",
     "AgentToken",
@@ -52,6 +65,7 @@ __all__ = [
     "BudgetView",
     "CallRequest",
     "ChargeView",
+    "ClientSeedRequest",
     "ClockLedger",
     "ClockTerms",
     "ClockView",
@@ -64,6 +78,8 @@ __all__ = [
     "GameOver",
     "GameSummary",
     "GameTerms",
+    "KeyList",
+    "KeyView",
     "ManyEvent",
     "MatchList",
     "MatchOver",
@@ -79,8 +95,11 @@ __all__ = [
     "Position",
     "Problem",
     "ProblemCode",
+    "RackTerms",
+    "RackView",
     "RulingView",
     "SeatLedger",
+    "SeedWanted",
     "ShotParameters",
     "ShotRequest",
     "ShotsPage",

@@ -24,6 +24,34 @@ from referee.wire.view import View
 
 _OLYMPIAD = "olympiad"
 
+LONGEST_OPENING = 60.0
+"""Seconds that a match may wait for the players' seeds."""
+
+
+class RackTerms(Request):
+    """Which racks are to be equal.
+
+    Attributes:
+        seed: a secret, 64 hexadecimal digits, from which the racks come. Matches that share it have the same
+            racks; their noise is each match's own, and whoever knows this seed knows nothing of it. Only an
+            organiser may give one; otherwise the racks come from the match seed and the players' seeds.
+        paired: games 0 and 1, 2 and 3, … of the match have the same racks, the break being swapped.
+    """
+
+    seed: Digest | None = None
+    paired: Flag = False
+
+
+class RackView(Message):
+    """The same as everybody may know it.
+
+    Attributes:
+        shared: the racks come from a secret that other matches may share.
+    """
+
+    shared: Flag
+    paired: Flag
+
 
 class MatchRequest(Request):
     """``POST /v1/matches``: two agents and the terms.
@@ -37,6 +65,10 @@ class MatchRequest(Request):
         seed: the secret match seed, 64 hexadecimal digits, from which racks, noise and the first breaker
             come. Only an organiser may give one, to repeat a match; otherwise the server draws it.
         start: where every game begins instead of a break; such a match is unrated.
+        racks: which are to be equal.
+        first_breaker: seat; drawn unless an organiser gives it.
+        client_seed_seconds: how long the players may add seeds of their own before the first rack; 0 starts the
+            match without waiting. It starts at once when both have.
     """
 
     model_config = ConfigDict(
@@ -62,9 +94,36 @@ class MatchRequest(Request):
     clock: ClockTerms = ClockTerms()
     seed: Digest | None = None
     start: Position | None = None
+    racks: RackTerms = RackTerms()
+    first_breaker: Seat | None = None
+    client_seed_seconds: Annotated[Number, Field(ge=0, le=LONGEST_OPENING)] = 0.0
 
 
-MatchStatus = Literal["challenged", "running", "finished", "aborted"]
+class ClientSeedRequest(Request):
+    """``POST /v1/matches/{id}/seed``: what a player adds to the draw.
+
+    Attributes:
+        seed: 256 random bits, drawn after the commitment was read.
+    """
+
+    model_config = ConfigDict(json_schema_extra={"examples": [{"seed": "5f" * 32}]})
+
+    seed: Digest
+
+
+class AcceptRequest(Request):
+    """``POST /v1/matches/{id}/accept``; the body may be left out.
+
+    Attributes:
+        client_seed: what the accepting player adds to the draw.
+    """
+
+    model_config = ConfigDict(json_schema_extra={"examples": [{"client_seed": "5f" * 32}, {}]})
+
+    client_seed: Digest | None = None
+
+
+MatchStatus = Literal["challenged", "opening", "running", "finished", "aborted"]
 GameStatus = Literal["running", "finished", "aborted"]
 
 
@@ -73,7 +132,8 @@ class GameSummary(Message):
 
     Attributes:
         breaker: the seat that broke, or will.
-        commitment: SHA-256 of the noise seed; noise_seed: the seed itself, once the game is over.
+        commitment: of the match (docs/protocol.md, Commitment).
+        noise_seed: from which the game's noise came, once the game is over.
     """
 
     id: Identifier
@@ -100,7 +160,10 @@ class MatchView(Message):
 
     Attributes:
         agents: ids, by seat; players: their names.
-        first_breaker: the seat that breaks the first game; the break then alternates.
+        commitment: to the secrets of the match and its terms, fixed before any seed of the players.
+        client_seeds: what the players added to the draw, by seat; client_seed_seconds: how long they may.
+        racks: which are equal.
+        first_breaker: the seat that breaks the first game, once it has begun; the break then alternates.
         score: games won by seat, half a point for a draw.
         winner: seat, when finished and not drawn.
         challenger: seat of the agent who challenged; null for a match by an organiser.
@@ -118,6 +181,10 @@ class MatchView(Message):
     noise: NoiseView
     clock: ClockTerms
     challenger: Seat | None
+    commitment: Digest
+    client_seeds: tuple[Digest | None, Digest | None]
+    client_seed_seconds: Number
+    racks: RackView
     first_breaker: Seat | None
     score: tuple[Number, Number]
     winner: Seat | None

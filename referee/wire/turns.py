@@ -21,7 +21,7 @@ class GameOver(Message):
     """A game of the caller has ended; the message is delivered once.
 
     Attributes:
-        noise_seed: the revealed seed, whose SHA-256 was the commitment.
+        noise_seed: from which the game's noise came, revealed; the record leads from it to the commitment.
         record: path of the record.
     """
 
@@ -54,7 +54,22 @@ class MatchOver(Message):
     score: tuple[Number, Number]
 
 
-TurnMessage = Annotated[Turn | GameOver | MatchOver, Field(discriminator="type")]
+class SeedWanted(Message):
+    """A match of the caller is about to start, and its players may add to the draw; delivered once.
 
-TURN_MESSAGE: TypeAdapter[Turn | GameOver | MatchOver] = TypeAdapter(TurnMessage)
-"""Reads any of the three by its ``type``."""
+    Attributes:
+        commitment: what the match is committed to already.
+        seconds: how long the match waits for a seed.
+    """
+
+    type: Literal["seed_wanted"] = "seed_wanted"
+    match: Identifier
+    seat: Seat
+    commitment: Digest
+    seconds: Number
+
+
+TurnMessage = Annotated[Turn | SeedWanted | GameOver | MatchOver, Field(discriminator="type")]
+
+TURN_MESSAGE: TypeAdapter[Turn | SeedWanted | GameOver | MatchOver] = TypeAdapter(TurnMessage)
+"""Reads any of them by its ``type``."""

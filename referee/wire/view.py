@@ -87,7 +87,7 @@ class GameTerms(Message):
         dry_visits_limit: after so many visits without a ball pocketed the rack is replayed (R49).
         replays_limit: after so many replays the next stalemate draws the game.
         strokes_limit: after so many strokes the game is drawn.
-        commitment: SHA-256 of the game's secret noise seed.
+        commitment: to the secrets of the match and its terms (docs/protocol.md, Commitment).
     """
 
     game: Identifier

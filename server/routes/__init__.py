@@ -4,7 +4,7 @@ from typing import Final
 
 from fastapi import APIRouter
 
-from server.routes import agents, games, health, matches, page, physics, streams, turns
+from server.routes import agents, games, health, keys, matches, page, physics, streams, turns
 
 ROUTERS: Final[tuple[APIRouter, ...]] = (
     agents.router,
@@ -13,6 +13,7 @@ ROUTERS: Final[tuple[APIRouter, ...]] = (
     games.router,
     streams.router,
     physics.router,
+    keys.router,
     health.router,
     page.router,
 )

@@ -35,6 +35,7 @@ Described = dict[str, Any]
 def describe(
     *problems: type[ServerError],
     body: type[BaseModel] | None = None,
+    optional_body: bool = False,
     success: Mapping[int, Any] | None = None,
     token: bool = True,
     key: bool = False,
@@ -44,7 +45,7 @@ def describe(
 
     Args:
         problems: the errors it may answer with, beside those that the other arguments imply.
-        body: the message it takes.
+        body: the message it takes; optional_body: it may be left out.
         success: the message it answers with, or the media type of what is none, by status; None leaves it to
             the
             framework.
@@ -55,7 +56,7 @@ def describe(
     implied += [SlowBody, TooLarge, *KEY_PROBLEMS] if key else []
     extra: dict[str, Any] = {"security": [{TOKEN_SCHEME: []}] if token else []}
     if body:
-        extra["requestBody"] = _request_body(body)
+        extra["requestBody"] = _request_body(body) | {"required": not optional_body}
     if headers := _headers(key, version):
         extra["parameters"] = headers
     responses = {status: _success(answer) for status, answer in (success or {}).items()}
@@ -74,7 +75,7 @@ def _request_body(body: type[BaseModel]) -> dict[str, Any]:
         "schema": {"$ref": f"#/components/schemas/{body.__name__}"},
         "examples": {f"example_{number}": {"value": value} for number, value in enumerate(examples, 1)},
     }
-    return {"required": True, "content": {"application/json": content}}
+    return {"content": {"application/json": content}}
 
 
 def _success(answer: Any) -> dict[str, Any]:

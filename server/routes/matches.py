@@ -4,11 +4,11 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
-from referee.wire import MatchList, MatchRequest, MatchView
+from referee.wire import AcceptRequest, ClientSeedRequest, MatchList, MatchRequest, MatchView
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
 from server.routes.dependencies import ANYBODY, Cursor, Limit, Sent, Server, respond
 from server.routes.describe import OWNED, describe
-from server.services import matches
+from server.services import matches, openings
 
 router = APIRouter(prefix="/v1/matches", tags=["matches"])
 
@@ -48,12 +48,25 @@ def one(match_id: str, context: Server) -> MatchView:
 
 @router.post(
     "/{match_id}/accept",
-    **describe(*OWNED, WrongStatus, success={200: MatchView}, key=True),
+    **describe(*OWNED, WrongStatus, body=AcceptRequest, optional_body=True, success={200: MatchView}, key=True),
     summary="Accept a challenge",
 )
 def accept(match_id: str, context: Server, command: Sent) -> Response:
-    """The first game begins."""
+    """The first game begins, at once or when the players have had their time to add seeds.
+
+    The body may be left out.
+    """
     return respond(matches.accept(context, match_id, command))
+
+
+@router.post(
+    "/{match_id}/seed",
+    **describe(*OWNED, WrongStatus, body=ClientSeedRequest, success={200: MatchView}, key=True),
+    summary="Add a seed to the draw",
+)
+def contribute(match_id: str, context: Server, command: Sent) -> Response:
+    """Each player once, after the commitment was published and before the first rack."""
+    return respond(openings.contribute(context, match_id, command))
 
 
 @router.post(

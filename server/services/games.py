@@ -9,32 +9,41 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, func, insert, select, update
 
-from physics import Table
 from referee.game import EndReason, Game
-from referee.play import Charge, GameSeeds, MatchSeed, NoiseModel, begin_game
-from referee.record import Header, canonical, end_entry
-from referee.rules import EightBall
+from referee.play import Charge
+from referee.record import Chain, Header, end_entry, signed_seal
 from server.errors import StaleVersion
-from server.services import notices, turn_clock
+from server.security import keys
+from server.services import draws, notices, turn_clock
 from server.services.context import Writing
-from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, position_of, score_of
+from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of
 from server.store.tables import charges, games, matches, moves
 
 FIRST_VERSION = 1
 
 
 def begin(writing: Writing, match: Row[Any], number: int) -> None:
-    """Rack the match's next game; its commitment is public from here on."""
-    seed = MatchSeed.from_hex(match.seed)
-    seeds = seed.game(number)
-    game = begin_game(EightBall(Table.from_dict(match.table)), seed, number, position_of(match))
-    header = _header(writing.connection, match, number, seeds, game)
+    """Put the balls of the match's next game where it begins."""
+    terms, seeds = draws.terms_of(match), draws.game_seeds(match, number)
+    game = terms.start(seeds, number)
+    chain = Chain()
+    header = Header.of(
+        terms,
+        game,
+        seeds,
+        game=f"game_{secrets.token_hex(8)}",
+        number=number,
+        players=player_names(writing.connection, match),
+        allowance_ns=match.allowance,
+    )
     row = {
         "id": header.game,
         "match_id": match.id,
         "number": number,
-        "noise_seed": seeds.noise.hex(),
-        "commitment": seeds.commitment,
+        "noise_secret": seeds.noise.hex(),
+        "rack_secret": seeds.racks.hex(),
+        "noise_seed": seeds.noise_seed.hex(),
+        "commitment": header.commitment,
         "breaker": game.breaker,
         "state": game.to_dict(),
         "version": FIRST_VERSION,
@@ -42,7 +51,8 @@ def begin(writing: Writing, match: Row[Any], number: int) -> None:
         **dict.fromkeys(("used_0", "used_1", "lag_0", "lag_1", "simulated_0", "simulated_1"), 0),
         **dict.fromkeys(("present_0", "present_1"), False),
         "started_at": writing.now,
-        "header": canonical(header.to_dict()),
+        "header": chain.add(header.to_dict()),
+        "head": chain.head,
     }
     turn = turn_clock.mover(match, game) | turn_clock.available(writing, turn_clock.first_turn(match))
     writing.connection.execute(insert(games).values(row | turn))
@@ -68,46 +78,33 @@ def next_move(live: LiveGame) -> int:
     return int(live.row.version) - FIRST_VERSION
 
 
-def advance(writing: Writing, live: LiveGame, game: Game, end: TurnEnd) -> LiveGame:
+def advance(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: Chain) -> LiveGame:
     """Store what a move made of a game, and what follows from it.
+
+    `chain` is that of the record's lines, the move's among them.
 
     Raises `StaleVersion` when somebody else was first.
     """
     if game.is_over:
-        return _finish(writing, live, game, end)
-    return _store(writing, live, game, end, _next_turn(writing, live, game, end.charge))
+        return _finish(writing, live, game, end, chain)
+    turn = _next_turn(writing, live, game, end.charge)
+    return _store(writing, live, game, end, turn | {"head": chain.head})
 
 
 def end_from_outside(writing: Writing, live: LiveGame, reason: EndReason, loser: int | None) -> LiveGame:
     """End a running game for a reason that is not on the table (R48); the running turn is charged."""
     ruling = live.rules.end(live.game, reason, loser)
-    return _finish(writing, live, ruling.game, TurnEnd(live.charge_until(writing.now)))
+    return _finish(writing, live, ruling.game, TurnEnd(live.charge_until(writing.now)), Chain(live.row.head))
 
 
 def abort_running(writing: Writing, match: Row[Any]) -> None:
-    """Abort a match's running game, tell both players, and that the match is over."""
+    """Abort a match's running game, if there is one, and tell both players."""
     running = select(games.c.id).where(games.c.match_id == match.id, games.c.status == RUNNING)
     for game_id in writing.connection.scalars(running).all():
         end_from_outside(writing, find(writing.connection, game_id), EndReason.ABORTED, None)
-    notices.match_over(writing.connection, match, ABORTED)
 
 
-def _header(connection: Connection, match: Row[Any], number: int, seeds: GameSeeds, start: Game) -> Header:
-    return Header.of(
-        EightBall(Table.from_dict(match.table)),
-        start,
-        seeds,
-        NoiseModel(match.noise_level, match.noise_told),
-        game=f"game_{secrets.token_hex(8)}",
-        match=match.id,
-        number=number,
-        players=player_names(connection, match),
-        allowance_ns=match.allowance,
-        given=match.start is not None,
-    )
-
-
-def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd) -> LiveGame:
+def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: Chain) -> LiveGame:
     """The game is over: its result, the end of its record, the news to both players, and what comes next."""
     outcome = game.outcome
     assert outcome is not None
@@ -115,13 +112,17 @@ def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd) -> LiveG
     entries, after_last_move = _count_moves(writing.connection, live.id), [0, 0]
     if end.move is None:
         after_last_move[live.game.turn] = end.charge.charged_ns
+    ending = chain.add(end_entry(entries, outcome, live.seeds, after_last_move))
+    seal = signed_seal(keys.active(writing.connection, writing.now), chain.head, keys.time_text(writing.now))
     values = {
         "status": ABORTED if aborted else FINISHED,
         "winner": outcome.winner,
         "mover": None,
         "deadline": None,
         "ended_at": writing.now,
-        "ending": canonical(end_entry(entries, outcome, live.seeds, after_last_move)),
+        "ending": ending,
+        "seal": chain.add(seal),
+        "head": chain.head,
     }
     live = _store(writing, live, game, end, values)
     live = replace(live, score=score_of(writing.connection, live.match.id))

@@ -49,4 +49,4 @@ def record(context: Context, game_id: str) -> str:
         if live.is_running:
             raise GameUnfinished("the record, with the seed, is published when the game is over")
         lines = connection.scalars(ours).all()
-    return "".join(f"{line}\n" for line in (live.row.header, *lines, live.row.ending))
+    return "".join(f"{line}\n" for line in (live.row.header, *lines, live.row.ending, live.row.seal))

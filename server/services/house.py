@@ -123,7 +123,8 @@ def has_place(writing: Writing, match: Row[Any]) -> bool:
     if not _is_house(writing.connection, bot):
         return False
     only_one(writing.connection, f"places of {bot}")
-    running = select(func.count()).select_from(matches).where(matches.c.status == "running", _plays(bot))
+    busy = matches.c.status.in_(("opening", "running"))
+    running = select(func.count()).select_from(matches).where(busy, _plays(bot))
     taken = writing.connection.scalar(running) or 0
     with_it = writing.connection.scalar(running.where(_plays(match.challenger))) or 0
     return taken < writing.context.settings.house_places and with_it == 0

@@ -12,9 +12,11 @@ from collections.abc import AsyncIterator
 
 from starlette.concurrency import run_in_threadpool
 
-from server.services import house, matches
+from server.services import house
 from server.services.context import Context
 from server.services.house import HouseBot
+from server.services.live import hold_match
+from server.services.openings import CHALLENGED, begin_or_wait
 from server.store.locks import only_one
 
 log = logging.getLogger("pooliad.server.house")
@@ -111,9 +113,9 @@ def accept_waiting(context: Context) -> None:
     with context.writing() as writing:
         only_one(writing.connection, "waiting challenges")
         for seen in house.waiting(writing.connection):
-            match = matches.hold(writing.connection, seen.id)
-            if match.status == "challenged" and house.has_place(writing, match):
-                matches.start(writing, match)
+            match = hold_match(writing.connection, seen.id)
+            if match.status == CHALLENGED and house.has_place(writing, match):
+                begin_or_wait(writing, match)
                 players += match.seat_0, match.seat_1
     context.wakeups.notify(players)
 

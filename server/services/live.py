@@ -8,12 +8,13 @@ from sqlalchemy import Connection, Row, select
 
 from physics import Table
 from referee.game import Game
-from referee.play import Charge, Clocks, GameSeeds, LagAllowance, MatchSeed, NoiseModel
+from referee.play import Charge, Clocks, GameSeeds, LagAllowance, NoiseModel
 from referee.rules import EightBall
-from referee.wire import BudgetView, ClockView, GameTerms, NoiseView, Position, StrokeView, View
+from referee.wire import BudgetView, ClockView, GameTerms, NoiseView, StrokeView, View
 from server.errors import Forbidden, NotFound
 from server.security.callers import Caller
-from server.store.locks import hold_match_of
+from server.services import draws
+from server.store import locks
 from server.store.tables import agents, games, matches, moves
 
 RUNNING: Final = "running"
@@ -62,7 +63,7 @@ class LiveGame:
     @property
     def seeds(self) -> GameSeeds:
         """The game's secrets."""
-        return MatchSeed.from_hex(self.match.seed).game(self.row.number)
+        return draws.kept_seeds(self.match, self.row)
 
     @property
     def noise(self) -> NoiseModel:
@@ -174,7 +175,7 @@ def find(connection: Connection, game_id: str) -> LiveGame:
     row = connection.execute(select(games).where(games.c.id == game_id)).one_or_none()
     if row is None:
         raise NotFound(f"there is no game {game_id}")
-    match = connection.execute(select(matches).where(matches.c.id == row.match_id)).one()
+    match = find_match(connection, row.match_id)
     return LiveGame(
         row=row,
         match=match,
@@ -186,8 +187,22 @@ def find(connection: Connection, game_id: str) -> LiveGame:
 
 def hold(connection: Connection, game_id: str) -> LiveGame:
     """The same, to be written: nobody else writes the match until the transaction ends."""
-    hold_match_of(connection, game_id)
+    locks.hold_match_of(connection, game_id)
     return find(connection, game_id)
+
+
+def find_match(connection: Connection, match_id: str) -> Row[Any]:
+    """The match with this id; raises `NotFound`."""
+    row = connection.execute(select(matches).where(matches.c.id == match_id)).one_or_none()
+    if row is None:
+        raise NotFound(f"there is no match {match_id}")
+    return row
+
+
+def hold_match(connection: Connection, match_id: str) -> Row[Any]:
+    """The same, to be written by this transaction alone."""
+    locks.hold_match(connection, match_id)
+    return find_match(connection, match_id)
 
 
 def player_names(connection: Connection, match: Row[Any]) -> tuple[str, str]:
@@ -195,14 +210,6 @@ def player_names(connection: Connection, match: Row[Any]) -> tuple[str, str]:
     pair = select(agents.c.id, agents.c.name).where(agents.c.id.in_((match.seat_0, match.seat_1)))
     names = {row.id: row.name for row in connection.execute(pair)}
     return names[match.seat_0], names[match.seat_1]
-
-
-def position_of(match: Row[Any]) -> Game | None:
-    """Where the match's games begin, None when they begin with a break."""
-    if match.start is None:
-        return None
-    rules = EightBall(Table.from_dict(match.table))
-    return rules.begin_from(Position.model_validate(match.start).to_game())
 
 
 def score_of(connection: Connection, match_id: str) -> tuple[float, float]:

@@ -5,10 +5,9 @@ from typing import Any
 from sqlalchemy import Connection, Row, select
 
 from referee.game import Outcome
-from referee.play import MatchSeed
 from referee.play.clock import SECOND_NS
-from referee.wire import ClockTerms, GameSummary, MatchView, OutcomeView, Position
-from server.services.live import RUNNING, noise_view, player_names, position_of, score_of
+from referee.wire import ClockTerms, GameSummary, MatchView, OutcomeView, Position, RackView
+from server.services.live import RUNNING, noise_view, player_names, score_of
 from server.services.notices import winner_of
 from server.services.time import date_time
 from server.store.tables import games
@@ -29,7 +28,11 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
         noise=noise_view(match),
         clock=ClockTerms(seconds=match.allowance / SECOND_NS, simulations=match.simulations),
         challenger=None if match.challenger is None else int(match.challenger == match.seat_1),
-        first_breaker=None if match.started_at is None else _first_breaker(match),
+        commitment=match.commitment,
+        client_seeds=(match.client_seed_0, match.client_seed_1),
+        client_seed_seconds=match.opening / SECOND_NS,
+        racks=RackView(shared=match.rack_seed is not None, paired=match.paired_racks),
+        first_breaker=match.first_breaker,
         score=score,
         winner=winner_of(match.status, score),
         played=tuple(GameSummary(**summary(row)) for row in played),
@@ -37,11 +40,6 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
         rated=match.start is None,
         created_at=date_time(match.created_at),
     )
-
-
-def _first_breaker(match: Row[Any]) -> int:
-    position = position_of(match)
-    return MatchSeed.from_hex(match.seed).first_breaker if position is None else position.breaker
 
 
 def summary(row: Row[Any]) -> dict[str, Any]:

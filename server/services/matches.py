@@ -1,21 +1,26 @@
 """Matches: made by the organiser or by challenge and acceptance, played game after game, aborted."""
 
+import logging
 import secrets
 from typing import Any, Final, get_args
 
-from sqlalchemy import Connection, Row, insert, or_, select, update
+from sqlalchemy import Connection, Row, insert, or_, select
 
 from physics import PhysicsError, Table
 from referee import EightBall, InvalidGame
 from referee.play import nanoseconds
-from referee.wire import MatchList, MatchRequest, MatchStatus, MatchView
-from server.errors import Forbidden, NotFound, WrongStatus, invalid_field, invalid_physics
+from referee.record import this_engine
+from referee.wire import AcceptRequest, MatchList, MatchRequest, MatchStatus, MatchView
+from server.errors import Forbidden, WrongStatus, invalid_field, invalid_physics
 from server.security.callers import Caller
-from server.services import games, house, match_views
+from server.services import draws, games, house, match_views, notices
 from server.services.commands import Answer, Command, once, parse
 from server.services.context import Context, Writing
-from server.store.locks import hold_match
+from server.services.live import ABORTED, RUNNING, find_match, hold_match
+from server.services.openings import CHALLENGED, OPENING, add_seed, begin_or_wait, update_match
 from server.store.tables import agents, matches
+
+log = logging.getLogger("pooliad.server.matches")
 
 STATUSES: Final[tuple[str, ...]] = get_args(MatchStatus)
 
@@ -29,11 +34,11 @@ def create(context: Context, command: Command) -> Answer:
 
 
 def accept(context: Context, match_id: str, command: Command) -> Answer:
-    """The challenged agent (or the organiser) accepts, and the first game begins."""
+    """The challenged agent (or the organiser) accepts, and the match opens."""
     with context.writing() as writing:
-        match = hold(writing.connection, match_id)
+        match = hold_match(writing.connection, match_id)
         _require_challenged(match, command.caller)
-        answer = once(writing.connection, command, lambda: _accepted(writing, match))
+        answer = once(writing.connection, command, lambda: _accepted(writing, match, command))
     context.wakeups.notify((match.seat_0, match.seat_1))
     return answer
 
@@ -41,7 +46,7 @@ def accept(context: Context, match_id: str, command: Command) -> Answer:
 def abort(context: Context, match_id: str, command: Command) -> Answer:
     """Call a match off: the organiser at any time, a player only while it is a challenge."""
     with context.writing() as writing:
-        match = hold(writing.connection, match_id)
+        match = hold_match(writing.connection, match_id)
         _require_may_abort(match, command.caller)
         answer = once(writing.connection, command, lambda: _aborted(writing, match))
     context.wakeups.notify((match.seat_0, match.seat_1))
@@ -51,7 +56,7 @@ def abort(context: Context, match_id: str, command: Command) -> Answer:
 def one(context: Context, match_id: str) -> MatchView:
     """A match with its games; raises `NotFound`."""
     with context.database.reading() as connection:
-        return match_views.view(connection, _find(connection, match_id))
+        return match_views.view(connection, find_match(connection, match_id))
 
 
 def listing(context: Context, agent_id: str | None, status: str | None, cursor: int, limit: int) -> MatchList:
@@ -69,6 +74,20 @@ def listing(context: Context, agent_id: str | None, status: str | None, cursor: 
     return MatchList(matches=views, next_cursor=str(cursor + limit) if len(rows) > limit else None)
 
 
+def abort_foreign(context: Context) -> None:
+    """Call every match off that is committed to another engine: with this one its records would not be true."""
+    unfinished = matches.c.status.in_((CHALLENGED, OPENING, RUNNING))
+    foreign = select(matches.c.id).where(unfinished, matches.c.engine != this_engine().digest)
+    with context.database.reading() as connection:
+        found = connection.scalars(foreign).all()
+    for match_id in found:
+        with context.writing() as writing:
+            match = hold_match(writing.connection, match_id)
+            if match.status in (CHALLENGED, OPENING, RUNNING):
+                log.warning("match %s is committed to another engine and is aborted", match_id)
+                _abort(writing, match)
+
+
 def _created(writing: Writing, command: Command) -> Answer:
     request = parse(command, MatchRequest)
     _require_right(request, command.caller)
@@ -76,10 +95,8 @@ def _created(writing: Writing, command: Command) -> Answer:
     _require_start(request)
     house.require_terms(writing.connection, request, command.caller)
     match = _insert(writing, request, command.caller)
-    if match.status == "running":
-        games.begin(writing, match, 0)
-    elif house.has_place(writing, match):
-        match = start(writing, match)
+    if match.challenger is None or house.has_place(writing, match):
+        match = begin_or_wait(writing, match)
     return Answer.of(201, match_views.view(writing.connection, match), location=f"/v1/matches/{match.id}")
 
 
@@ -88,8 +105,10 @@ def _require_right(request: MatchRequest, caller: Caller) -> None:
         return
     if caller.id not in request.agents:
         raise Forbidden("only the organiser makes matches of others; an agent challenges for itself")
-    if request.seed is not None:
-        raise invalid_field("seed", request.seed, "null: only the organiser may give a seed")
+    organisers = (("seed", request.seed), ("racks.seed", request.racks.seed), ("first_breaker", request.first_breaker))
+    for field, value in organisers:
+        if value is not None:
+            raise invalid_field(field, value, "null: only the organiser may give it")
 
 
 def _require_agents(connection: Connection, request: MatchRequest) -> None:
@@ -113,13 +132,13 @@ def _require_start(request: MatchRequest) -> None:
 
 
 def _insert(writing: Writing, request: MatchRequest, caller: Caller) -> Row[Any]:
-    organised = caller.is_organiser
+    match_id, organised = f"match_{secrets.token_hex(8)}", caller.is_organiser
     row = {
-        "id": f"match_{secrets.token_hex(8)}",
+        "id": match_id,
         "seat_0": request.agents[0],
         "seat_1": request.agents[1],
         "challenger": None if organised else caller.id,
-        "status": "running" if organised else "challenged",
+        "status": OPENING if organised else CHALLENGED,
         "games": request.games,
         "rules": request.rules,
         "table": request.table,
@@ -129,36 +148,39 @@ def _insert(writing: Writing, request: MatchRequest, caller: Caller) -> Row[Any]
         "simulations": request.clock.simulations,
         "lag_turn": nanoseconds(writing.context.settings.lag_turn),
         "lag_game": nanoseconds(writing.context.settings.lag_game),
-        "seed": request.seed or secrets.token_hex(32),
         "start": None if request.start is None else request.start.model_dump(mode="json"),
         "created_at": writing.now,
-        "started_at": writing.now if organised else None,
     }
-    writing.connection.execute(insert(matches).values(row))
-    return _find(writing.connection, str(row["id"]))
+    writing.connection.execute(insert(matches).values(row | draws.columns(request, match_id)))
+    return find_match(writing.connection, match_id)
 
 
-def _accepted(writing: Writing, match: Row[Any]) -> Answer:
-    if match.status != "challenged":
+def _accepted(writing: Writing, match: Row[Any], command: Command) -> Answer:
+    if match.status != CHALLENGED:
         raise WrongStatus(f"the match is {match.status}; only a challenge can be accepted")
-    return Answer.of(200, match_views.view(writing.connection, start(writing, match)))
-
-
-def start(writing: Writing, match: Row[Any]) -> Row[Any]:
-    """Begin the first game of a challenge that is accepted; the match as it is now."""
-    match = _update(writing.connection, match.id, status="running", started_at=writing.now)
-    games.begin(writing, match, 0)
-    return match
+    request = parse(command, AcceptRequest) if command.body else AcceptRequest()
+    if request.client_seed is not None:
+        if command.caller.is_organiser:
+            raise invalid_field("client_seed", request.client_seed, "null: the organiser does not play")
+        match = add_seed(writing, match, int(command.caller.id == match.seat_1), request.client_seed)
+    match = begin_or_wait(writing, match)
+    return Answer.of(200, match_views.view(writing.connection, match))
 
 
 def _aborted(writing: Writing, match: Row[Any]) -> Answer:
-    if match.status not in ("challenged", "running"):
+    if match.status not in (CHALLENGED, OPENING, RUNNING):
         raise WrongStatus(f"the match is {match.status} already")
-    was_running = match.status == "running"
-    match = _update(writing.connection, match.id, status="aborted", ended_at=writing.now)
-    if was_running:
+    return Answer.of(200, match_views.view(writing.connection, _abort(writing, match)))
+
+
+def _abort(writing: Writing, match: Row[Any]) -> Row[Any]:
+    """Call a match off; players who wait for it are told, those of a challenge are not."""
+    before, ended = match.status, {"status": ABORTED, "opens_until": None, "ended_at": writing.now}
+    match = update_match(writing.connection, match.id, **ended)
+    if before != CHALLENGED:
         games.abort_running(writing, match)
-    return Answer.of(200, match_views.view(writing.connection, match))
+        notices.match_over(writing.connection, match, ABORTED)
+    return match
 
 
 def _require_challenged(match: Row[Any], caller: Caller) -> None:
@@ -172,26 +194,10 @@ def _require_may_abort(match: Row[Any], caller: Caller) -> None:
         return
     if caller.id not in (match.seat_0, match.seat_1):
         raise Forbidden("only its players and the organiser may call a match off")
-    if match.started_at is not None:
-        raise Forbidden("a match that has begun is called off by the organiser alone; a player can concede a game")
-
-
-def _find(connection: Connection, match_id: str) -> Row[Any]:
-    row = connection.execute(select(matches).where(matches.c.id == match_id)).one_or_none()
-    if row is None:
-        raise NotFound(f"there is no match {match_id}")
-    return row
-
-
-def hold(connection: Connection, match_id: str) -> Row[Any]:
-    """A match to be written by this transaction alone; raises `NotFound`."""
-    hold_match(connection, match_id)
-    return _find(connection, match_id)
-
-
-def _update(connection: Connection, match_id: str, **values: object) -> Row[Any]:
-    connection.execute(update(matches).where(matches.c.id == match_id).values(**values))
-    return _find(connection, match_id)
+    if match.status != CHALLENGED:
+        raise Forbidden(
+            "a match that is no challenge any more is called off by the organiser alone; a player can concede a game"
+        )
 
 
 def _announce(context: Context, answer: Answer) -> None:

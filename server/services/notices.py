@@ -1,10 +1,13 @@
-"""News for the players: a game is over, the match is over. Each is delivered once, before any turn."""
+"""News for the players: a seed is wanted, a game is over, the match is over.
+
+Each is delivered once, before any turn.
+"""
 
 from typing import Any, Literal
 
 from sqlalchemy import Connection, Row, insert
 
-from referee.wire import GameOver, MatchOver, OutcomeView
+from referee.wire import GameOver, MatchOver, OutcomeView, SeedWanted
 from server.services.live import FINISHED, LiveGame, score_of
 from server.store.tables import notices
 
@@ -38,10 +41,19 @@ def match_over(connection: Connection, match: Row[Any], status: Literal["finishe
         _notify(connection, agent, message)
 
 
+def seeds_wanted(connection: Connection, match: Row[Any], seconds: float) -> None:
+    """Tell those players who have not added a seed that they may, and how long."""
+    added = (match.client_seed_0, match.client_seed_1)
+    for seat, agent in enumerate((match.seat_0, match.seat_1)):
+        if added[seat] is None:
+            message = SeedWanted(match=match.id, seat=seat, commitment=match.commitment, seconds=seconds)
+            _notify(connection, agent, message)
+
+
 def winner_of(status: str, score: tuple[float, float]) -> int | None:
     """The seat that won a match; None while it is on, when it is drawn or aborted."""
     return int(score[1] > score[0]) if status == FINISHED and score[0] != score[1] else None
 
 
-def _notify(connection: Connection, agent: str, message: GameOver | MatchOver) -> None:
+def _notify(connection: Connection, agent: str, message: SeedWanted | GameOver | MatchOver) -> None:
     connection.execute(insert(notices).values(agent_id=agent, message=message.model_dump_json()))

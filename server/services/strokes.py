@@ -12,7 +12,7 @@ from sqlalchemy import Connection, insert
 from physics import PhysicsError
 from referee import Action, Decision, Refusal
 from referee.play import Refused, Stroke, play_stroke
-from referee.record import canonical, stroke_entry
+from referee.record import Chain, stroke_entry
 from referee.wire import DecisionRequest, Fault, ShotRequest, StrokeAnswer, StrokeDetail, shown
 from server import errors
 from server.services import games, simulations
@@ -138,17 +138,17 @@ def _fault(refusal: Refusal) -> Fault:
 def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd) -> Answer:
     """Write the move, the game that follows and its clocks; the answer to them."""
     number = games.next_move(live)
-    detail = StrokeDetail.of(stroke, number)
+    detail, chain = StrokeDetail.of(stroke, number), Chain(live.row.head)
     move = {
         "game_id": live.id,
         "number": number,
         "seat": stroke.seat,
         "stroke": detail.model_dump(mode="json", exclude={"events"}),
-        "line": canonical(stroke_entry(stroke, number, end.charge.charged_ns)),
+        "line": chain.add(stroke_entry(stroke, number, end.charge.charged_ns)),
     }
     writing.connection.execute(insert(moves).values(move | {"created_at": writing.now}))
     writing.context.failpoint("shot-moved")
-    live = games.advance(writing, live, stroke.game, end)
+    live = games.advance(writing, live, stroke.game, end, chain)
     writing.context.failpoint("shot-advanced")
     view = live.view(writing.connection, stroke.seat, writing.now)
     message = StrokeAnswer(game=live.id, stroke=detail, view=view, clocks=view.clocks)

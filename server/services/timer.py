@@ -14,6 +14,7 @@ from server.services import games as course
 from server.services import turn_clock
 from server.services.context import Context
 from server.services.live import find
+from server.services.openings import begin_due
 from server.store.locks import lease_match_of
 from server.store.tables import games
 
@@ -41,6 +42,7 @@ class Timer:
         while True:
             await asyncio.sleep(self._context.settings.timer_period)
             try:
+                await run_in_threadpool(begin_due, self._context)
                 await run_in_threadpool(flag, self._context)
             except Exception:
                 log.exception("the timer failed; it goes on")

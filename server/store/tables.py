@@ -82,10 +82,23 @@ matches = Table(
     Column("lag_game", BigInteger, nullable=False),
     Column("seed", String(64), nullable=False),
     Column("start", JSON(none_as_null=True)),
+    Column("rack_seed", String(64)),
+    Column("paired_racks", Boolean, nullable=False),
+    Column("given_breaker", Integer),
+    Column("engine", String(64), nullable=False),
+    Column("commitment", String(64), nullable=False),
+    Column("client_seed_0", String(64)),
+    Column("client_seed_1", String(64)),
+    Column("opening", BigInteger, nullable=False),
+    Column("opens_until", BigInteger, index=True),
+    Column("first_breaker", Integer),
     Column("created_at", BigInteger, nullable=False),
     Column("started_at", BigInteger),
     Column("ended_at", BigInteger),
 )
+"""`seed`, `rack_seed` (null: the same): the secrets. `engine`: the digest of what the match is committed to.
+`opening`: how long the players may add seeds; `opens_until`: when the first game begins whoever has not, null
+unless the match waits for that. `first_breaker`: known when the first game begins."""
 
 games = Table(
     "games",
@@ -93,6 +106,8 @@ games = Table(
     Column("id", Identifier, primary_key=True),
     Column("match_id", Identifier, ForeignKey("matches.id"), nullable=False),
     Column("number", Integer, nullable=False),
+    Column("noise_secret", String(64), nullable=False),
+    Column("rack_secret", String(64), nullable=False),
     Column("noise_seed", String(64), nullable=False),
     Column("commitment", String(64), nullable=False),
     Column("breaker", Integer, nullable=False),
@@ -118,13 +133,16 @@ games = Table(
     Column("ended_at", BigInteger),
     Column("header", Text, nullable=False),
     Column("ending", Text),
+    Column("seal", Text),
+    Column("head", String(64), nullable=False),
     UniqueConstraint("match_id", "number"),
 )
 """`mover`: whose turn it is, null when the game is over. `clock_from`: when the turn's clock starts or
 started; `deadline`: when the turn is over unplayed, null when the game is over. `used`: charged for turns that are
 over, `lag`: given back for them, by seat. `carried`: what the running turn took before the server stopped.
 `simulated`: shots simulated or declared, by seat. `present`: whether the player ever fetched a turn of this game or
-played one. `header` and `ending`: the first and the last line of the record."""
+played one. `header`, `ending` and `seal`: the first line and the last two of the record; `head`: the digest of its
+last line so far."""
 
 charges = Table(
     "charges",
@@ -177,6 +195,17 @@ answers = Table(
     Column("created_at", BigInteger, nullable=False),
 )
 """The idempotency rows: what was answered to an accepted request, stored in the transaction that did it."""
+
+signing_keys = Table(
+    "signing_keys",
+    metadata,
+    Column("id", String(32), primary_key=True),
+    Column("private_key", LargeBinary, nullable=False),
+    Column("public_key", String(64), nullable=False),
+    Column("valid_from", BigInteger, nullable=False),
+    Column("valid_until", BigInteger),
+)
+"""What records are sealed with. The one without an end is in use; those that were stay, for old records."""
 
 notices = Table(
     "notices",

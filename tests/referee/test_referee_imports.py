@@ -32,7 +32,6 @@ PUBLIC = {
     "Refused",
     "Ruling",
     "Stroke",
-    "commitment",
     "play_stroke",
     "start_game",
 }

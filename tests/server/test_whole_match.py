@@ -53,7 +53,7 @@ def test_a_match_of_two_games(new_table):
         strokes = history_of(table, game["id"])
         assert strokes == [answer["stroke"] for answer in answers if answer["game"] == game["id"]]
         assert [stroke["index"] for stroke in strokes] == list(range(len(strokes)))
-        assert len(record) == len(strokes) + 2
+        assert len(record) == len(strokes) + 3
         assert game["strokes"] == sum(stroke["shot"] is not None for stroke in strokes)
     for seat in (0, 1):
         news = news_of(table, seat)

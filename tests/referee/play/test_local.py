@@ -11,7 +11,7 @@ from referee.game import Action, EndReason, Outcome
 from referee.play import MatchSeed, NoiseModel
 from referee.play.local import TRIES, BadAnswer, Lost, Timing, Watch, play_game, play_match, points_of
 from referee.play.stroke import Refused
-from referee.record import verify_record
+from referee.record import line_digest, verify_record
 from referee.rules import EightBall
 
 RULES = EightBall(Table.olympiad())
@@ -81,10 +81,18 @@ def test_players_see_their_own_turns_and_what_happened_since():
 
 def test_no_view_holds_anything_that_yields_noise():
     first, second = Spy(Potter("a")), Spy(Potter("b"))
-    seeds = game_of(first, second).seeds
+    game = game_of(first, second)
+    seeds = game.seeds
     text = "".join(view.model_dump_json() for view in first.views + second.views)
-    assert seeds.commitment in text
-    for secret in (seeds.noise, seeds.racks, *(seeds.rack(n) for n in range(3)), MatchSeed.of(1).secret):
+    assert game.header.commitment in text
+    for secret in (
+        seeds.noise,
+        seeds.noise_seed,
+        seeds.racks,
+        seeds.rack_seed,
+        *(seeds.rack(n) for n in range(3)),
+        MatchSeed.of(1).secret,
+    ):
         assert secret.hex() not in text
 
 
@@ -163,8 +171,8 @@ def test_a_player_who_is_out_loses_for_its_own_reason(reason):
 def test_the_lines_told_as_they_happen_are_the_record():
     lines = []
     game = game_of(Potter("a"), Potter("b"), watch=Watch(on_line=lines.append), match="m", game="g")
-    assert [*lines, game.last_line()] == list(game.record())
-    assert (game.header.match, game.header.game) == ("m", "g")
+    assert [*lines, *game.last_lines(line_digest(lines[-1]))] == list(game.record())
+    assert (game.header.terms.match, game.header.game) == ("m", "g")
 
 
 def test_a_match_alternates_the_break_and_keeps_the_score():
@@ -178,7 +186,9 @@ def test_a_match_alternates_the_break_and_keeps_the_score():
 
     games = list(play_match(RULES, chairs, seed, 4, NOISE, players=("ann", "bob")))
     assert [game.header.start.breaker for game in games] == [seed.breaker(number) for number in range(4)]
-    assert len({game.header.commitment for game in games}) == 4
+    assert len({game.header.commitment for game in games}) == 1
+    assert len({game.seeds.noise_seed for game in games}) == 4
+    assert all(verify_record(game.record()).ok for game in games)
     points = [points_of(game.outcome) for game in games]
     for number, spies in enumerate(seen):
         before = tuple(sum(pair[seat] for pair in points[:number]) for seat in (0, 1))

@@ -5,30 +5,85 @@ import hmac
 
 import pytest
 
-from referee.play import GameSeeds, MatchSeed, commitment, seed_from_hex
+from referee.play import GameSeeds, MatchSeed, client_seeds_from_hex, seed_from_hex
+from referee.play.seeds import anchor, hashed
 
 SEED = MatchSeed(bytes(range(32)))
 
 
+CLIENTS = (bytes([1]) * 32, bytes([2]) * 32)
+
+
+def derive(key, label):
+    return hmac.digest(key, label.encode(), hashlib.sha256)
+
+
+def sha(link):
+    return hashlib.sha256(link).digest()
+
+
 def test_derivations_are_as_specified():
-    """The labels are part of the record format: golden."""
-
-    def derive(key, label):
-        return hmac.digest(key, label, hashlib.sha256)
-
+    """docs/protocol.md, Seeds: chains, labels and what the players add, written out a second time."""
+    noise, racks = derive(SEED.secret, "pooliad/1 noise chain"), derive(SEED.secret, "pooliad/1 rack chain")
+    for _ in range(1000 - 1 - 3):
+        noise, racks = sha(noise), sha(racks)
     third = SEED.game(3)
-    assert third.noise == derive(SEED.secret, b"pooliad/1 game 3 noise")
-    assert third.racks == derive(SEED.secret, b"pooliad/1 game 3 racks")
-    assert third.rack(2) == derive(third.racks, b"pooliad/1 rack 2")
-    assert SEED.first_breaker == derive(SEED.secret, b"pooliad/1 first breaker")[31] % 2
+    assert (third.noise, third.racks) == (noise, racks)
+    assert third.noise_seed == derive(noise, "pooliad/1 noise - -")
+    assert third.rack(2) == derive(derive(racks, "pooliad/1 racks - -"), "pooliad/1 rack 2")
+    first = sha(sha(sha(noise)))
+    assert SEED.first_breaker == derive(first, "pooliad/1 first breaker - -")[31] % 2
+    mixed = MatchSeed(SEED.secret, client_seeds=CLIENTS).game(3)
+    texts = f"{'01' * 32} {'02' * 32}"
+    assert mixed.noise_seed == derive(noise, f"pooliad/1 noise {texts}")
+    assert mixed.rack_seed == derive(racks, f"pooliad/1 racks {texts}")
+    assert mixed.first_breaker(3) == derive(first, f"pooliad/1 first breaker {texts}")[31] % 2
 
 
 def test_golden_values():
     seeds = SEED.game(0)
-    assert seeds.noise.hex() == "b9d15898cd10b64a530d397ebff8643cb405973a4c43fd38663c03fa4394cccf"
-    assert seeds.racks.hex() == "ad2a3940b4f16c9f4876537d7caacf90d72bffff0645fd914baad8a2b07a85a4"
-    assert seeds.rack(0).hex() == "200fe615356c4126054ff984b8bca31947704b52c6616d5358b2ef4496b72cb1"
+    assert seeds.noise.hex() == "901c0cdb056f0ac8f623df6f1241bc42365093844e3f33c7c3b643730d2c488b"
+    assert seeds.racks.hex() == "944748aa37959384ddadae3081964ac89b9a1ea4cb0cf707f8307981d890a5b2"
+    assert seeds.noise_seed.hex() == "5f93fa44d390d22883812b153f799b5d49333e6e26b14ff99c7194fb9d4b0bc9"
+    assert seeds.rack(0).hex() == "d3e7cc4a432b87a5e40417c4cd1dbbc9473da376d54156c20235842bbd426f60"
     assert MatchSeed.of(7).secret.hex() == "f3e8c0df86a964bbb2379ca0c681d81eb00f168ea92210d35bebb0e656ea2819"
+
+
+def test_every_game_of_a_match_leads_to_the_same_anchors():
+    games = [SEED.game(number) for number in (0, 1, 2, 999)]
+    assert len({anchor(game.noise, number) for game, number in zip(games, (0, 1, 2, 999), strict=True)}) == 1
+    assert len({anchor(game.racks, number) for game, number in zip(games, (0, 1, 2, 999), strict=True)}) == 1
+    assert anchor(games[0].noise, 0) != anchor(games[0].racks, 0)
+
+
+def test_a_revealed_link_leads_to_games_that_are_over_alone():
+    """Hashing goes from later games to earlier ones, and never back."""
+    third = SEED.game(3)
+    earlier = {hashed(third.noise, steps) for steps in range(1, 4)}
+    assert earlier == {SEED.game(number).noise for number in (0, 1, 2)}
+    later = {SEED.game(number).noise for number in range(4, 1000)}
+    assert not later & {hashed(third.noise, steps) for steps in range(2000)}
+
+
+def test_each_player_alone_changes_everything():
+    """Issue: optional client seeds; swapping them between the seats is another draw, too."""
+    one, other = CLIENTS
+    draws = [(None, None), (one, None), (None, one), (one, other), (other, one), (one, one)]
+    games = [MatchSeed(SEED.secret, client_seeds=draw).game(0) for draw in draws]
+    assert len({game.noise_seed for game in games}) == len(draws)
+    assert len({game.rack(0) for game in games}) == len(draws)
+    assert len({game.noise for game in games}) == 1
+
+
+def test_matches_can_share_racks_without_knowing_the_noise():
+    """Paired games of a tournament: equal racks whatever the players add, and noise of each match's own."""
+    racks = bytes([9]) * 32
+    one = MatchSeed(bytes(32), racks, CLIENTS).game(0)
+    other = MatchSeed(SEED.secret, racks).game(0)
+    assert one.rack(0) == other.rack(0)
+    assert one.noise_seed != other.noise_seed
+    assert one.noise_seed == MatchSeed(bytes(32), client_seeds=CLIENTS).game(0).noise_seed
+    assert one.rack(0) != MatchSeed(bytes(32), client_seeds=CLIENTS).game(0).rack(0)
 
 
 def test_the_games_of_a_pair_share_their_racks_and_never_their_noise():
@@ -44,14 +99,9 @@ def test_the_games_of_a_pair_share_their_racks_and_never_their_noise():
 def test_no_two_derivations_are_equal():
     games = [SEED.game(number) for number in range(20)]
     derived = [seeds.noise for seeds in games] + [seeds.racks for seeds in games]
+    derived += [seeds.noise_seed for seeds in games] + [seeds.rack_seed for seeds in games]
     derived += [seeds.rack(index) for seeds in games for index in range(3)]
     assert len(set(derived)) == len(derived)
-
-
-def test_commitment_is_sha_256_of_the_noise_seed():
-    """Issue: published before the break, the seed after the game."""
-    seeds = SEED.game(0)
-    assert seeds.commitment == hashlib.sha256(seeds.noise).hexdigest() == commitment(seeds.noise)
 
 
 def test_secrets_do_not_show_in_a_log():
@@ -60,13 +110,6 @@ def test_secrets_do_not_show_in_a_log():
     for secret in (SEED.secret, seeds.noise, seeds.racks):
         assert secret.hex() not in shown
         assert repr(secret) not in shown
-
-
-def test_games_of_a_pair_can_share_racks_but_not_noise():
-    first, second = SEED.game(0), SEED.game(1)
-    swapped = GameSeeds(noise=second.noise, racks=first.racks)
-    assert swapped.rack(0) == first.rack(0)
-    assert swapped.commitment != first.commitment
 
 
 def test_break_alternates_from_the_seeds_choice():
@@ -88,7 +131,7 @@ def test_hex_round_trip():
     assert MatchSeed.from_hex(SEED.secret.hex()) == SEED
 
 
-@pytest.mark.parametrize("text", ["", "00" * 31, "0" * 63, "zz" * 32, None, 7])
+@pytest.mark.parametrize("text", ["", "00" * 31, "0" * 63, "zz" * 32, "00 " * 32, None, 7])
 def test_bad_hex_is_refused(text):
     with pytest.raises(ValueError, match="must be 64 hexadecimal digits"):
         seed_from_hex(text)
@@ -105,3 +148,17 @@ def test_bad_secrets_are_refused_without_repeating_them(bad):
 def test_repeatable_seeds_are_integers(bad):
     with pytest.raises(ValueError, match="must be an integer >= 0"):
         MatchSeed.of(bad)
+
+
+@pytest.mark.parametrize("number", [-1, 1000, 10**30, 1.0, True])
+def test_a_match_has_games_0_to_999(number):
+    with pytest.raises(ValueError, match=r"game number = .*: must be an integer in \[0, 1000\)"):
+        SEED.game(number)
+
+
+def test_client_seeds_are_none_or_hex():
+    assert client_seeds_from_hex((None, "01" * 32)) == (None, CLIENTS[0])
+    with pytest.raises(ValueError, match="must be 64 hexadecimal digits"):
+        client_seeds_from_hex((None, "01"))
+    with pytest.raises(ValueError, match=r"client_seeds\[1\] = <3 bytes>: must be 32 bytes"):
+        MatchSeed(SEED.secret, client_seeds=(None, b"abc"))

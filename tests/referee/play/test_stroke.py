@@ -29,7 +29,7 @@ def test_a_stroke_is_placed_made_noisy_simulated_and_ruled():
     stroke = play_stroke(RULES, game, BREAK, SEEDS, NOISY)
     assert (stroke.seat, stroke.index, stroke.action) == (1, 0, BREAK)
     assert stroke.before == game.state.moved(0, (0.558, 1.75))
-    assert stroke.shot == NOISY.perturb(BREAK.shot, SEEDS.noise, 0)
+    assert stroke.shot == NOISY.perturb(BREAK.shot, SEEDS.noise_seed, 0)
     assert stroke.result.final == simulate(TABLE, stroke.before, stroke.shot).final
     assert stroke.ruling == RULES.apply(game, BREAK, stroke.result.facts, stroke.result.final)
     assert stroke.game == stroke.ruling.game
@@ -140,7 +140,7 @@ def test_noise_goes_on_after_a_new_rack():
             pytest.fail(f"a soft break was legal: {broken.ruling.words}")
         game = play_stroke(RULES, broken.game, Action(decision="rerack_and_break"), SEEDS, NOISY).game
     assert len(set(shots)) == 3
-    assert shots == [NOISY.perturb(SOFT_BREAK.shot, SEEDS.noise, n) for n in range(3)]
+    assert shots == [NOISY.perturb(SOFT_BREAK.shot, SEEDS.noise_seed, n) for n in range(3)]
 
 
 def test_ball_in_hand_is_placed_where_the_shooter_wants():
@@ -175,7 +175,7 @@ def test_nothing_that_yields_noise_is_in_the_game_or_the_stroke():
     stroke = play_stroke(RULES, start_game(RULES, SEEDS), BREAK, SEEDS, NOISY)
     text = f"{stroke!r} {stroke.game.to_dict()} {stroke.ruling.to_dict()}"
     raw = pickle.dumps((stroke.game, stroke.ruling, stroke.action, stroke.shot))
-    for secret in (SEEDS.noise, SEEDS.racks, SEEDS.rack(0), MatchSeed.of(11).secret):
+    for secret in (SEEDS.noise, SEEDS.noise_seed, SEEDS.racks, SEEDS.rack(0), MatchSeed.of(11).secret):
         assert secret not in raw
         assert secret.hex() not in text
         assert repr(secret) not in text

@@ -5,6 +5,7 @@ import json
 import math
 import subprocess
 import sys
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -17,8 +18,10 @@ from referee.game import Action, EndReason, Outcome
 from referee.play import MatchSeed, NoiseModel, play_stroke, start_game
 from referee.play.local import play_game
 from referee.record import (
+    Chain,
     Header,
     InvalidRecord,
+    MatchTerms,
     Verdict,
     canonical,
     read_record,
@@ -59,7 +62,13 @@ def tampered(path, value):
     for step in path[:-1]:
         node = node[step]
     node[path[-1]] = value(node[path[-1]]) if callable(value) else value
-    return [json.dumps(line) for line in objects]
+    return [canonical(line) for line in objects]
+
+
+def chained(objects):
+    """The lines of a forger who knows how chains are made."""
+    chain = Chain()
+    return [chain.add(line) for line in objects]
 
 
 def first_line_with(test):
@@ -78,25 +87,23 @@ def test_a_true_record_is_verified(seed, level):
 
 def test_a_fresh_process_needs_nothing_but_the_file(tmp_path):
     path = tmp_path / "game.jsonl"
-    path.write_text("\n".join(true_lines()) + "\n", encoding="utf-8")
+    path.write_text("".join(f"{line}\n" for line in true_lines()), encoding="utf-8")
     script = f"from referee.record import verify_record as v; r = v({str(path)!r}); print(r); assert r.ok"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.startswith("verified: ")
 
 
-def test_the_record_is_canonical_and_its_form_does_not_matter():
+def test_every_line_is_canonical():
     assert all(canonical(json.loads(line)) == line for line in true_lines())
-    spaced = [json.dumps(json.loads(line), indent=None, separators=(" ,", " : ")) for line in true_lines()]
-    assert verify_record(spaced).ok
 
 
-def test_the_commitment_is_in_the_first_line_and_the_seed_in_the_last_alone():
+def test_the_commitment_is_in_the_first_line_and_the_secrets_in_the_end_alone():
     seeds = game().seeds
-    *before, last = true_lines()
-    assert seeds.commitment in before[0]
-    assert seeds.noise.hex() in last
-    for secret in (seeds.noise, seeds.racks, seeds.rack(0), MatchSeed.of(4).secret):
-        assert all(secret.hex() not in line for line in before)
+    *before, end, seal = true_lines()
+    assert game().header.commitment in before[0]
+    assert seeds.noise.hex() in end
+    for secret in (seeds.noise, seeds.noise_seed, seeds.racks, seeds.rack(0), MatchSeed.of(4).secret):
+        assert all(secret.hex() not in line for line in [*before, seal])
 
 
 def nudge(number):
@@ -104,15 +111,21 @@ def nudge(number):
     return math.nextafter(number, math.inf)
 
 
-BREAK = 1
+BREAK, END = 1, -2
 EVENT = ("events", 20)
 TAMPERINGS = [
     # path, value, line, stroke, event, field starts with
     ((0, "commitment"), "0" * 64, 1, None, None, "commitment"),
     ((0, "start", "state", "5", 0), nudge, 1, None, None, "start.state.5[0]"),
     ((0, "start", "groups"), ["solids", "stripes"], 1, None, None, "start.groups"),
-    ((0, "noise", "level"), 1.0000001, 2, 0, None, "shot."),
-    ((0, "table", "mu_slide"), 0.25, 2, 0, 1, "events[1]."),
+    ((0, "noise", "level"), 1.0000001, 1, None, None, "commitment"),
+    ((0, "table", "mu_slide"), 0.25, 1, None, None, "commitment"),
+    ((0, "rules", "limits", "dry_visits"), 25, 1, None, None, "commitment"),
+    ((0, "match"), "another", 1, None, None, "commitment"),
+    ((0, "games"), 2, 1, None, None, "commitment"),
+    ((0, "racks", "paired"), True, 1, None, None, "commitment"),
+    ((0, "first_breaker"), 1, 1, None, None, "commitment"),
+    ((0, "client_seeds", 0), "01" * 32, 1, None, None, "start.state."),
     ((0, "surplus"), 1, 1, None, None, "surplus"),
     ((BREAK, "seat"), lambda seat: 1 - seat, 2, 0, None, "seat"),
     ((BREAK, "stroke"), 7, 2, 0, None, "stroke"),
@@ -139,11 +152,11 @@ TAMPERINGS = [
     ((BREAK, "game", "turn"), lambda seat: 1 - seat, 2, 0, None, "game.turn"),
     ((BREAK, "game", "groups"), ["solids", "stripes"], 2, 0, None, "game.groups"),
     ((BREAK, "game", "state", "8", 0), nudge, 2, 0, None, "game.state.8[0]"),
-    ((-1, "noise_seed"), "0" * 64, 1, None, None, "commitment"),
-    ((-1, "rack_seed"), "0" * 64, 1, None, None, "start.state."),
-    ((-1, "entries"), 3, None, None, None, "entries"),
-    ((-1, "outcome", "winner"), lambda seat: 1 - seat, None, None, None, "outcome.winner"),
-    ((-1, "outcome", "reason"), "concession", None, None, None, "outcome.reason"),
+    ((END, "noise_secret"), "0" * 64, 1, None, None, "commitment"),
+    ((END, "rack_secret"), "0" * 64, 1, None, None, "commitment"),
+    ((END, "entries"), 3, None, None, None, "entries"),
+    ((END, "outcome", "winner"), lambda seat: 1 - seat, None, None, None, "outcome.winner"),
+    ((END, "outcome", "reason"), "concession", None, None, None, "outcome.reason"),
 ]  # fmt: skip
 
 
@@ -157,7 +170,8 @@ def test_every_lie_is_found_and_named(path, value, line, stroke, event, field):
     verification = verify_record(lines)
     assert verification.verdict is Verdict.DIFFERENT, str(verification)
     difference = verification.difference
-    assert difference.line == (line or len(lines))
+    assert difference.line == (line or len(lines) + 1 + END)
+    assert verification.chain.line == path[0] % len(lines) + 2
     assert difference.stroke == stroke
     assert event is None or difference.event == event
     assert difference.field.startswith(field)
@@ -172,13 +186,13 @@ def test_a_lie_about_a_ball_names_the_ball():
     assert verify_record(tampered((BREAK, "final", "8", 1), nudge)).difference.ball == 8
 
 
-def test_seed_and_commitment_changed_together_are_found_in_the_noise():
-    """Whoever invents another noise seed with its commitment is caught at the first noisy shot."""
+def test_secret_and_commitment_changed_together_are_found_in_the_noise():
+    """Whoever invents another noise secret with its commitment is caught at the first noisy shot."""
     objects = parsed()
-    other = MatchSeed.of(99).game(0)
-    objects[0]["commitment"] = other.commitment
-    objects[-1]["noise_seed"] = other.noise.hex()
-    verification = verify_record([json.dumps(line) for line in objects])
+    forged = replace(game().seeds, noise=MatchSeed.of(99).game(0).noise)
+    objects[0]["commitment"] = game().header.terms.commitment(forged, 0)
+    objects[END]["noise_secret"] = forged.noise.hex()
+    verification = verify_record([canonical(line) for line in objects])
     assert (verification.difference.stroke, verification.difference.field) == (0, "shot.v")
 
 
@@ -188,7 +202,7 @@ def test_a_stroke_left_out_is_found():
 
 
 def test_a_stroke_after_the_end_is_found():
-    lines = [*true_lines()[:-1], true_lines()[-2], true_lines()[-1]]
+    lines = [*true_lines()[:END], true_lines()[END - 1], *true_lines()[END:]]
     difference = verify_record(lines).difference
     assert difference.field == "action"
     assert "the game is over" in difference.derived
@@ -204,7 +218,7 @@ def test_an_action_that_is_not_allowed_is_found():
 
 def test_a_game_cut_short_has_no_such_end():
     """The last strokes left out, the result kept."""
-    lines = [*true_lines()[:-2], true_lines()[-1]]
+    lines = [*true_lines()[: END - 1], *true_lines()[END:]]
     difference = verify_record(lines).difference
     assert difference.field == "outcome"
     assert difference.derived == "no end: the game goes on"
@@ -212,7 +226,7 @@ def test_a_game_cut_short_has_no_such_end():
 
 @pytest.mark.parametrize(("key", "value"), [("version", "99.0"), ("digest", "f" * 64)])
 def test_another_engines_record_says_which_one_it_needs(key, value):
-    verification = verify_record(tampered((0, "engine", key), value))
+    verification = verify_record(chained(json.loads(line) for line in tampered((0, "engine", key), value)))
     assert verification.verdict is Verdict.OTHER_ENGINE
     assert verification.needs != this_engine()
     assert value[:12] in str(verification)
@@ -236,9 +250,10 @@ def test_what_is_no_record_is_malformed(lines, problem):
 
 
 def test_an_unfinished_record_is_malformed():
-    verification = verify_record(true_lines()[:-1])
-    assert verification.verdict is Verdict.MALFORMED
-    assert "must be 'end'" in str(verification)
+    for lines in (true_lines()[:-1], true_lines()[:END]):
+        verification = verify_record(lines)
+        assert verification.verdict is Verdict.MALFORMED
+        assert "must be 'end'" in str(verification)
     assert "the record ends before the game does" in str(verify_record(true_lines()[:1]))
 
 
@@ -261,7 +276,7 @@ def test_names_with_line_separators_stay_on_their_line(tmp_path):
     objects = parsed()
     objects[0]["players"] = ["a\u2028nn", "b\x85ob"]
     path = tmp_path / "game.jsonl"
-    path.write_text("\n".join(canonical(line) for line in objects), encoding="utf-8", newline="\n")
+    path.write_text("".join(f"{line}\n" for line in chained(objects)), encoding="utf-8", newline="\n")
     assert verify_record(path).ok
 
 
@@ -281,15 +296,19 @@ def test_junk_anywhere_is_an_answer_and_never_an_exception(data):
         node = node[key]
     before = node[key]
     node[key] = data.draw(JUNK)
-    verification = verify_record([json.dumps(line) for line in objects])
+    try:
+        lines = chained(objects)
+    except ValueError:  # no JSON
+        lines = [json.dumps(line) for line in objects]
+    verification = verify_record(lines)
     assert verification.verdict in Verdict
     assert str(verification)
     assert not verification.ok or key in _BELIEVED or before == node[key]
 
 
-_BELIEVED = {"game", "match", "number", "players", "elapsed_ns", "allowance_ns", "told", "given", 0, 1}
-"""What a record says about who played, where, how long they thought, and who chose the start, no replay can
-contradict."""
+_BELIEVED = {"game", "players", "elapsed_ns", "allowance_ns", 0, 1, "previous"}
+"""What a record says about who played, where, and how long they thought, no replay can contradict. The chain is
+written anew here: whoever lies may do that, too."""
 
 
 @cache
@@ -302,12 +321,10 @@ def _lines_of(strokes, reason, charges=(None,), elapsed_ns=(0, 0), allowance_ns=
     """A record of these strokes, ended from outside to the loss of whoever is in turn."""
     played = game()
     header = Header.of(
-        RULES,
+        played.header.terms,
         played.header.start,
         played.seeds,
-        played.header.noise,
         game="g",
-        match="m",
         players=("ann", "bob"),
         allowance_ns=allowance_ns,
     )
@@ -352,14 +369,15 @@ def test_decisions_and_new_racks_are_part_of_the_record():
     strokes = [play_stroke(RULES, start, soft, seeds, noise)]
     for action in (Action(decision="rerack_and_break"), Action(decision="concede")):
         strokes.append(play_stroke(RULES, strokes[-1].game, action, seeds, noise))
-    header = Header.of(RULES, start, seeds, noise, game="g", match="m", players=("ann", "bob"))
+    terms = MatchTerms("m", 1, RULES, noise, first_breaker=0)
+    header = Header.of(terms, start, seeds, game="g", players=("ann", "bob"))
     timed = [(stroke, None) for stroke in strokes]
     lines = list(record_lines(header, timed, strokes[-1].game.outcome, seeds))
     assert verify_record(lines).ok
     second = json.loads(lines[2])
     assert "events" not in second
     second["game"]["state"]["3"][0] = nudge(second["game"]["state"]["3"][0])
-    difference = verify_record([*lines[:2], json.dumps(second), *lines[3:]]).difference
+    difference = verify_record([*lines[:2], canonical(second), *lines[3:]]).difference
     assert (difference.line, difference.stroke, difference.ball) == (3, None, 3)
     assert difference.field == "game.state.3[0]"
 

@@ -1,4 +1,4 @@
-"""The first tables: agents, tokens, matches, games, moves, answers, notices."""
+"""The first tables: agents, tokens, matches, games, moves, answers, notices, signing keys."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -58,6 +58,16 @@ def upgrade() -> None:
         sa.Column("lag_game", sa.BigInteger(), nullable=False),
         sa.Column("seed", sa.String(length=64), nullable=False),
         sa.Column("start", sa.JSON(), nullable=True),
+        sa.Column("rack_seed", sa.String(length=64), nullable=True),
+        sa.Column("paired_racks", sa.Boolean(), nullable=False),
+        sa.Column("given_breaker", sa.Integer(), nullable=True),
+        sa.Column("engine", sa.String(length=64), nullable=False),
+        sa.Column("commitment", sa.String(length=64), nullable=False),
+        sa.Column("client_seed_0", sa.String(length=64), nullable=True),
+        sa.Column("client_seed_1", sa.String(length=64), nullable=True),
+        sa.Column("opening", sa.BigInteger(), nullable=False),
+        sa.Column("opens_until", sa.BigInteger(), nullable=True),
+        sa.Column("first_breaker", sa.Integer(), nullable=True),
         sa.Column("created_at", sa.BigInteger(), nullable=False),
         sa.Column("started_at", sa.BigInteger(), nullable=True),
         sa.Column("ended_at", sa.BigInteger(), nullable=True),
@@ -66,6 +76,7 @@ def upgrade() -> None:
         sa.ForeignKeyConstraint(["seat_1"], ["agents.id"], name=op.f("fk_matches_seat_1_agents")),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_matches")),
     )
+    op.create_index(op.f("ix_matches_opens_until"), "matches", ["opens_until"], unique=False)
     op.create_index(op.f("ix_matches_seat_0"), "matches", ["seat_0"], unique=False)
     op.create_index(op.f("ix_matches_seat_1"), "matches", ["seat_1"], unique=False)
     op.create_index(op.f("ix_matches_status"), "matches", ["status"], unique=False)
@@ -85,6 +96,15 @@ def upgrade() -> None:
     )
     op.create_index("ix_notices_agent_delivered", "notices", ["agent_id", "delivered_at"], unique=False)
     op.create_table(
+        "signing_keys",
+        sa.Column("id", sa.String(length=32), nullable=False),
+        sa.Column("private_key", sa.LargeBinary(), nullable=False),
+        sa.Column("public_key", sa.String(length=64), nullable=False),
+        sa.Column("valid_from", sa.BigInteger(), nullable=False),
+        sa.Column("valid_until", sa.BigInteger(), nullable=True),
+        sa.PrimaryKeyConstraint("id", name=op.f("pk_signing_keys")),
+    )
+    op.create_table(
         "tokens",
         sa.Column("digest", sa.String(length=64), nullable=False),
         sa.Column("agent_id", sa.String(length=64), nullable=False),
@@ -99,6 +119,8 @@ def upgrade() -> None:
         sa.Column("id", sa.String(length=64), nullable=False),
         sa.Column("match_id", sa.String(length=64), nullable=False),
         sa.Column("number", sa.Integer(), nullable=False),
+        sa.Column("noise_secret", sa.String(length=64), nullable=False),
+        sa.Column("rack_secret", sa.String(length=64), nullable=False),
         sa.Column("noise_seed", sa.String(length=64), nullable=False),
         sa.Column("commitment", sa.String(length=64), nullable=False),
         sa.Column("breaker", sa.Integer(), nullable=False),
@@ -124,6 +146,8 @@ def upgrade() -> None:
         sa.Column("ended_at", sa.BigInteger(), nullable=True),
         sa.Column("header", sa.Text(), nullable=False),
         sa.Column("ending", sa.Text(), nullable=True),
+        sa.Column("seal", sa.Text(), nullable=True),
+        sa.Column("head", sa.String(length=64), nullable=False),
         sa.ForeignKeyConstraint(["match_id"], ["matches.id"], name=op.f("fk_games_match_id_matches")),
         sa.ForeignKeyConstraint(["mover"], ["agents.id"], name=op.f("fk_games_mover_agents")),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_games")),
@@ -187,11 +211,13 @@ def downgrade() -> None:
     op.drop_table("games")
     op.drop_index(op.f("ix_tokens_agent_id"), table_name="tokens")
     op.drop_table("tokens")
+    op.drop_table("signing_keys")
     op.drop_index("ix_notices_agent_delivered", table_name="notices")
     op.drop_table("notices")
     op.drop_index(op.f("ix_matches_status"), table_name="matches")
     op.drop_index(op.f("ix_matches_seat_1"), table_name="matches")
     op.drop_index(op.f("ix_matches_seat_0"), table_name="matches")
+    op.drop_index(op.f("ix_matches_opens_until"), table_name="matches")
     op.drop_table("matches")
     op.drop_table("answers")
     op.drop_table("house")
