@@ -8,8 +8,10 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from referee.wire import (
+    AcceptRequest,
     AgentRequest,
     BatchRequest,
+    ClientSeedRequest,
     DecisionRequest,
     ForfeitRequest,
     MatchRequest,
@@ -22,8 +24,10 @@ from server.routes.describe import TOKEN_SCHEME
 
 REFERENCE = "#/components/schemas/{model}"
 REQUESTS: tuple[type[BaseModel], ...] = (
+    AcceptRequest,
     AgentRequest,
     BatchRequest,
+    ClientSeedRequest,
     DecisionRequest,
     ForfeitRequest,
     MatchRequest,

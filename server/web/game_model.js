@@ -46,7 +46,7 @@ export class GameModel {
     const made = new GameModel({ id, players: players.map(String), table, noise, number, games: null, match, balls: start.state });
     for (const line of lines.slice(1)) {
       if (line.type === "stroke") made.entries.push(line);
-      if (line.type === "end") made.result = { outcome: line.outcome, noise_seed: line.noise_seed, score: null };
+      if (line.type === "end") made.result = { outcome: line.outcome, score: null };
     }
     return made;
   }

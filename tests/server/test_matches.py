@@ -1,8 +1,10 @@
 """CONTRACT, HTTP: matches by the organiser, by challenge and acceptance; abort; commitment; R50."""
 
-import hashlib
+import json
 
 import pytest
+
+from referee.record import verify_record
 
 
 def test_the_organiser_starts_a_match_at_once(new_table):
@@ -98,12 +100,15 @@ def test_an_aborted_match_tells_both_players_and_reveals_the_seed(new_table):
         over, done = player.turn(), player.turn()
         assert (over["type"], over["outcome"]["reason"], over["won"]) == ("game_over", "aborted", None)
         assert (done["type"], done["status"]) == ("match_over", "aborted")
-        assert hashlib.sha256(bytes.fromhex(over["noise_seed"])).hexdigest() == game["commitment"]
+        assert over["noise_seed"] is not None
         assert player.get("/v1/turns").status_code == 204
+    record = table.organiser.get(f"/v1/games/{game['id']}/record").text.splitlines()
+    assert json.loads(record[0])["commitment"] == game["commitment"]
+    assert verify_record(record).ok
 
 
 def test_the_break_alternates_and_every_game_has_its_own_noise(new_table):
-    """R50, by concession; the commitment stands before the break and the seed fits it afterwards."""
+    """R50, by concession; one commitment stands before the first break, and every record fits it afterwards."""
     table = new_table(games=4)
     committed = {}
     for _ in range(4):
@@ -117,10 +122,12 @@ def test_the_break_alternates_and_every_game_has_its_own_noise(new_table):
     first = match["first_breaker"]
     assert [game["breaker"] for game in match["played"]] == [first, 1 - first, first, 1 - first]
     assert (match["status"], match["score"], match["winner"]) == ("finished", [2.0, 2.0], None)
-    assert len(set(committed.values())) == 4
+    assert set(committed.values()) == {table.match["commitment"]}
+    assert len({game["noise_seed"] for game in match["played"]}) == 4
     for game in match["played"]:
-        seed = bytes.fromhex(game["noise_seed"])
-        assert hashlib.sha256(seed).hexdigest() == game["commitment"] == committed[game["id"]]
+        record = table.organiser.get(f"/v1/games/{game['id']}/record").text.splitlines()
+        assert json.loads(record[0])["commitment"] == table.match["commitment"]
+        assert verify_record(record).ok
     for player in table.players:
         assert player.turn()["type"] == "match_over"
 
@@ -139,4 +146,4 @@ def test_matches_of_a_status_there_is_not_are_refused(server):
     assert response.status_code == 422
     problem = response.json()
     assert (problem["code"], problem["field"], problem["value"]) == ("invalid", "status", "zzz")
-    assert problem["allowed"] == "one of challenged, running, finished, aborted"
+    assert problem["allowed"] == "one of challenged, opening, running, finished, aborted"

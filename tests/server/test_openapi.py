@@ -58,6 +58,8 @@ def test_the_contracts_routes_are_all_there(document):
         ("GET", "/v1/matches/{match_id}"),
         ("POST", "/v1/matches/{match_id}/accept"),
         ("POST", "/v1/matches/{match_id}/abort"),
+        ("POST", "/v1/matches/{match_id}/seed"),
+        ("GET", "/v1/keys"),
         ("GET", "/v1/turns"),
         ("POST", "/v1/games/{game_id}/shots"),
         ("POST", "/v1/games/{game_id}/decisions"),
@@ -124,7 +126,7 @@ class Somewhere:
         if path == "/v1/agents" and method == "post":
             example["name"] = f"example {view['game'][-8:]}"
         match, agent = table.match["id"], table.players[0].id
-        if path.endswith("/accept"):
+        if path.endswith(("/accept", "/seed")):
             ann, bob = self.new_player(), self.new_player()
             match = ann.post("/v1/matches", {"agents": [ann.id, bob.id]}).json()["id"]
             caller = bob

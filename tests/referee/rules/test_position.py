@@ -85,7 +85,7 @@ def concede(_view):
 
 def test_every_second_game_exchanges_the_seats_and_every_record_verifies():
     position = RULES.begin_from(situation(BALLS, groups=GROUPS))
-    chairs = lambda _number: (concede, concede)  # noqa: E731
+    chairs = lambda *_: (concede, concede)  # noqa: E731
     first, second = play_match(RULES, chairs, MatchSeed.of(1), 2, NoiseModel(), position=position)
     assert first.header.start == position
     assert second.header.start == replace(position, turn=1, breaker=1, groups=GROUPS[::-1])
@@ -96,7 +96,7 @@ def test_every_second_game_exchanges_the_seats_and_every_record_verifies():
 def test_a_given_position_that_is_none_is_no_record():
     """The header of a given game is believed only as far as the referee would let it begin."""
     position = RULES.begin_from(situation(BALLS))
-    chairs = lambda _number: (concede, concede)  # noqa: E731
+    chairs = lambda *_: (concede, concede)  # noqa: E731
     (game,) = play_match(RULES, chairs, MatchSeed.of(1), 1, NoiseModel(), position=position)
     header, *rest = game.record()
     forged = header.replace('"8":[0.9,0.4]', '"8":[9.9,0.4]')
