@@ -93,7 +93,7 @@ def test_noise_and_table_are_those_asked_for():
     table = physics.Table.olympiad().replace(mu_slide=0.25)
     strokes = []
     match = client.play("random", "random", seed=6, noise=0.0, table=table, on_stroke=strokes.append)
-    assert match.games[0].header.rules.table == table
+    assert match.games[0].header.terms.rules.table == table
     shots = [stroke for stroke in strokes if stroke.shot is not None]
     assert all(stroke.shot == stroke.action.shot for stroke in shots)
     assert len(strokes) == len(match.games[0].strokes)
