@@ -38,6 +38,7 @@ def game_seeds(spec: Spec, pair: Pair, leg: int, attempt: int = 0) -> GameSeeds:
     return GameSeeds(
         noise=_derive(spec, f"noise {pair.id} {leg} {attempt}"),
         racks=_derive(spec, f"racks {pair.id}"),
+        shared_racks=True,
     )
 
 

@@ -20,7 +20,7 @@ from referee import Action, EightBall, EndReason, GameSeeds, NoiseModel
 from referee.play import nanoseconds
 from referee.play.budget import Budgets, budgets
 from referee.play.local import TRIES, BadAction, Lost, PlayedGame, Timing, Watch, play_game, points_of
-from referee.record import read_record
+from referee.record import line_digest, read_record
 from referee.record.canonical import canonical, parse
 from referee.wire import View
 from tournament import Due, GameResult
@@ -94,7 +94,7 @@ def _played(task: GameTask, seats: tuple[Seat, Seat], notes: "_Notes | None", te
         notes.set_aside()
         game = _Game(task, seats, notes, tell)
         played = game.play()
-    text = "".join(f"{line}\n" for line in (*game.lines, played.last_line()))
+    text = "".join(f"{line}\n" for line in (*game.lines, *played.last_lines(line_digest(game.lines[-1]))))
     result = result_of(read_record(text.splitlines()), task.due, played.simulated)
     if notes is not None:
         notes.finish(text, result)
