@@ -101,7 +101,7 @@ def test_both_games_of_a_pair_have_the_same_racks_and_never_the_same_noise():
     """Issue 'Pairs': were the noise the same, the second game could be played with the first one's known."""
     first, second = (verify_and_read(record) for record in pair_of(Hosting("random"), Hosting("random")).records)
     assert first.header["start"]["state"] == second.header["start"]["state"]
-    assert first.end["noise_seed"] != second.end["noise_seed"]
+    assert first.end["noise_secret"] != second.end["noise_secret"]
     assert [each.header["start"]["breaker"] for each in (first, second)] == [0, 1]
 
 
