@@ -12,6 +12,8 @@ BENCHMARKS = {
     "savings": "counters of the work done and skipped, and what each saving is worth",
     "chained": "10^5 random shots, each from where the last one ended, through JSON: is any start refused?",
     "agents": "the shipped greedy against random: games won, called balls made, seconds a stroke",
+    "search": "the shipped search in pairs of games against greedy and against itself without its parts",
+    "search_habits": "what typically happens in games of search: the constants behind its values",
     "search_breaks": "the study behind the break of `search`: random breaks, halved again and again",
 }
 """Module in this package to one line about it."""

@@ -17,7 +17,7 @@ from client.agents.search.breaks import BREAKING, Break, best_break
 from client.agents.search.evaluate import SIGMAS
 from client.agents.search.sight import Sight
 from client.agents.search.value import Values
-from physics.constants import V_MAX
+from physics.constants import THETA_MAX, V_MAX
 from physics.shot import FIELDS
 from referee import Action, Decision, EightBall, Game, Phase, Ruling
 
@@ -102,7 +102,7 @@ def broken(one: Break, level: float, game: Game, copies: int, chance: np.random.
     shot = one.stroke(TABLE, state)
     strokes = np.array([[getattr(shot, name) for name in FIELDS]] * (copies if level > 0.0 else 1))
     strokes = strokes + level * SIGMAS * chance.standard_normal(strokes.shape)
-    strokes[:, 0] = np.clip(strokes[:, 0], 0.0, V_MAX)
+    strokes[:, 0], strokes[:, 2] = np.clip(strokes[:, 0], 0.0, V_MAX), np.clip(strokes[:, 2], 0.0, THETA_MAX)
     batch = physics.simulate_batch(TABLE, state, strokes)
     return RULES.apply_batch(game, [Action(shot=shot, cue_ball=one.place)] * len(strokes), batch)
 

@@ -9,12 +9,12 @@ import client
 import physics
 from client.agents.search import SearchAgent
 from client.agents.search.budget import Budget, Pace, allowance
-from client.agents.search.clusters import representatives
+from client.agents.search.clusters import as_they_come, representatives
 from client.agents.search.options import Options
 from client.agents.search.race import race
 from client.agents.search.refine import longest_run
 from client.agents.search.shots import Tables
-from client.agents.search.sight import Sight
+from client.agents.search.sight import ROOM, Sight
 from client.errors import AgentNotFound
 from referee import Action, CueBallArea, Decision, EightBall, EndReason, Game, Group, Phase
 from referee.play import MatchSeed, NoiseModel
@@ -256,8 +256,8 @@ def test_the_cue_is_raised_no_less_than_it_has_to_be():
         if len(raised):
             theta = raised.strokes[0, 2]
             assert theta >= needed - 1e-6
-            assert physics.check(TABLE, state, physics.Shot(2.0, phi, theta + 1e-6, a, b)) is None
-            equal += theta == pytest.approx(needed, abs=1e-3)
+            assert physics.check(TABLE, state, physics.Shot(2.0, phi, theta, a, b)) is None
+            equal += theta == pytest.approx(needed + ROOM, abs=1e-3)
     assert equal > 200  # more only where a low tip could pass under a ball's widest part
 
 
@@ -285,6 +285,26 @@ def test_the_longest_run_of_directions():
     first, last = longest_run(made)
     assert first.tolist()[:3] == [1, 0, 4]
     assert last.tolist()[:3] == [2, 4, 4]
+
+
+def test_what_clustering_is_measured_against():
+    chosen, nearest = as_they_come(np.zeros((7, 16, 2)), 3)
+    assert chosen.tolist() == [0, 1, 2]
+    assert nearest.tolist() == [0, 1, 2, 0, 1, 2, 0]
+
+
+def test_with_nothing_left_to_simulate_it_plays_on():
+    """A simulation budget that lasts for a few strokes: then pots are reckoned, and no action is bad."""
+    match = client.play(f"search:shots={FEW}", "random", seed=2, simulations=3_000)
+    (game,) = match.games
+    assert game.outcome.reason not in (EndReason.FORFEIT, EndReason.CONCESSION)
+    assert game.simulated[0] <= 3_000
+
+
+@pytest.mark.parametrize("part", ["lookahead", "clusters", "safeties", "ways"])
+def test_without_a_part_it_plays_all_the_same(part):
+    match = client.play(f"search:shots={FEW},{part}=off", "random", seed=6)
+    assert match.games[0].outcome.reason not in (EndReason.FORFEIT, EndReason.CONCESSION)
 
 
 def test_it_is_far_ahead_of_random():

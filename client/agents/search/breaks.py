@@ -35,8 +35,12 @@ class Break:
         return Shot(min(self.v, table.v_max), phi, theta + 0.5, self.a, self.b)
 
 
-BEST = {0.0: Break(x=0.227, y=1.70, v=6.62, aim=28.9, a=-9.87, b=13.9)}
-"""The best break by level of noise."""
+BEST = {
+    0.0: Break(x=0.3054, y=1.745, v=10.0, aim=28.32, a=-11.31, b=3.58),
+    1.0: Break(x=0.2419, y=1.7003, v=6.58, aim=26.76, a=-9.81, b=13.79),
+    5.0: Break(x=0.4601, y=1.679, v=6.8, aim=3.04, a=-3.16, b=14.27),
+}
+"""The best break by level of noise: `benchmarks/search_breaks.py`, line `search_breaks-20261122T024040`."""
 
 BREAKING = 0.69
 """What a new rack is worth to the player who breaks it."""

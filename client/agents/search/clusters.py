@@ -1,5 +1,7 @@
 """Tables that are nearly the same, taken together: one of each kind is looked at closely."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from client.agents.search.shots import Floats, Integers
@@ -28,6 +30,15 @@ def representatives(positions: Floats, most: int) -> tuple[Integers, Integers]:
         nearest[closer], gap = len(chosen) - 1, np.where(closer, to_new, gap)
     return np.array(chosen), nearest
 
+
+def as_they_come(positions: Floats, most: int) -> tuple[Integers, Integers]:
+    """Up to `most` of the tables, the first ones, each standing for as many: what clustering is measured against."""
+    chosen = np.arange(min(most, len(positions)))
+    return chosen, np.arange(len(positions)) % len(chosen)
+
+
+Choice = Callable[[Floats, int], tuple[Integers, Integers]]
+"""Picks tables to look at, and says for each table which of them stands for it."""
 
 CUE_WEIGHT = 3.0
 OFF_TABLE = -1.0

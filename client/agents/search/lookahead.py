@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from client.agents.search.clusters import representatives
+from client.agents.search.clusters import Choice, as_they_come, representatives
 from client.agents.search.evaluate import Evaluator, Outcomes
 from client.agents.search.pots import in_all_ways
 from client.agents.search.refine import centred
@@ -39,13 +39,14 @@ def best_of_each(table: Integers, worth: Floats, most: int) -> Integers:
     return found
 
 
-def correction(evaluator: Evaluator, outcomes: Outcomes, most: int) -> Floats:
+def correction(evaluator: Evaluator, outcomes: Outcomes, most: int, clustered: bool = True) -> Floats:
     """What looking closer adds to each stroke's mean worth, (k,).
 
     The tables that each stroke leaves are clustered, up to `most` for each; the one that stands for a cluster is played
-    out, and what that differs from its value is taken to hold for the whole cluster.
+    out, and what that differs from its value is taken to hold for the whole cluster. If not `clustered`, tables are
+    taken as they come, each for as many.
     """
-    stroke, weight, rows, mine = _clusters(outcomes, most)
+    stroke, weight, rows, mine = _clusters(outcomes, most, representatives if clustered else as_they_come)
     if not len(stroke):
         return np.zeros(len(outcomes.worth))
     copies = outcomes.copies
@@ -59,7 +60,9 @@ def correction(evaluator: Evaluator, outcomes: Outcomes, most: int) -> Floats:
     return np.bincount(stroke, gain, minlength=len(outcomes.worth)).astype(np.float64)
 
 
-def _clusters(outcomes: Outcomes, most: int) -> tuple[Integers, Integers, Integers, NDArray[np.bool_]]:
+def _clusters(
+    outcomes: Outcomes, most: int, chosen_by: Choice
+) -> tuple[Integers, Integers, Integers, NDArray[np.bool_]]:
     """Of each cluster: its stroke, its size, the row that stands for it, whether the shooter goes on."""
     found: list[tuple[int, int, int, bool]] = []
     to_play = ~outcomes.over & ~(outcomes.fouled & ~outcomes.continues)
@@ -69,7 +72,7 @@ def _clusters(outcomes: Outcomes, most: int) -> tuple[Integers, Integers, Intege
             share = max(1, round(most * len(copies) / outcomes.copies))
             if not len(copies):
                 continue
-            chosen, nearest = representatives(outcomes.positions[stroke, copies], share)
+            chosen, nearest = chosen_by(outcomes.positions[stroke, copies], share)
             sizes = np.bincount(nearest, minlength=len(chosen))
             rows = stroke * outcomes.copies + copies[chosen]
             found += [(stroke, int(size), int(row), mine) for size, row in zip(sizes, rows, strict=True)]

@@ -3,7 +3,7 @@
 The game as a Markov chain. Either player needs some number of *perfect balls*: the balls of the group and the 8, each
 weighed by how hard it lies. A shooter with a pot of chance p makes it and goes on, or misses and the opponent comes to
 the table; or plays safe. What chance the next shot has after a pot, a miss, a safety or a foul is a typical
-distribution, measured in games of this agent (`benchmarks/search_study.py`). The chain's values are the fixed point.
+distribution, measured in games of this agent (`benchmarks/search_habits.py`). The chain's values are the fixed point.
 """
 
 import functools
@@ -45,8 +45,8 @@ class Habits:
 
 MEASURED = {
     0.0: Habits(0.99, ((0.95, 0.85), (0.1, 0.15)), ((0.8, 0.4), (0.0, 0.6)), 0.99, 0.05, 0.02, 0.2),
-    1.0: Habits(0.92, ((0.92, 0.6), (0.25, 0.4)), ((0.75, 0.35), (0.1, 0.65)), 0.96, 0.12, 0.06, 0.35),
-    5.0: Habits(0.55, ((0.5, 0.6), (0.2, 0.4)), ((0.4, 0.5), (0.1, 0.5)), 0.75, 0.2, 0.15, 0.5),
+    1.0: Habits(0.96, ((0.95, 0.67), (0.16, 0.33)), ((0.83, 0.25), (0.09, 0.75)), 0.97, 0.3, 0.25, 0.33),
+    5.0: Habits(0.65, ((0.55, 0.6), (0.2, 0.4)), ((0.5, 0.4), (0.1, 0.6)), 0.8, 0.3, 0.3, 0.5),
 }
 """By level of noise; between two levels they are interpolated."""
 

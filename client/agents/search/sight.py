@@ -15,6 +15,8 @@ LEAST_NOISE = 0.1
 """Level below which chances are not told apart: at noise 0 the widest margin is still the best."""
 SIGMAS_FREE = 2.5
 """Standard deviations of direction and tip height that must leave the cue free, so that miscues are rare."""
+ROOM = 0.02
+"""Degrees above the least elevation, for rounding: at the least itself the cue touches."""
 HIGHEST = 45.0
 """Degrees: a cue raised further makes the cue ball's path a guess."""
 
@@ -71,5 +73,5 @@ class Sight:
         positions = np.ascontiguousarray(shots.tables.positions)
         aside = self._slack * SIGMA_PHI
         self._kernels.elevations(self._row, positions, shots.table, *columns, aside, theta)
-        strokes[:, THETA] = theta + self._slack * SIGMA_THETA
+        strokes[:, THETA] = theta + self._slack * SIGMA_THETA + ROOM
         return replace(shots, strokes=strokes)[strokes[:, THETA] <= self._theta_max]

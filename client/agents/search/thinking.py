@@ -1,5 +1,6 @@
 """One turn: gather strokes, judge them ever more carefully, look ahead from the best, until the budget is spent."""
 
+import contextlib
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ from client.agents.search.refine import centred
 from client.agents.search.shots import Floats, Shots, Tables
 from client.agents.search.sweep import sweep
 from physics import Shot, TableState, min_elevation
-from referee import SAFETY, Action, Call, CueBallArea, EightBall, Game, Group
+from referee import SAFETY, Action, BudgetSpent, Call, CueBallArea, EightBall, Game, Group
 from referee.rules.verdicts import OPEN, SAFETY_CALL, target_balls
 
 AIMS = 7
@@ -80,19 +81,31 @@ class Turn:
         self._considered = 0
 
     def best(self) -> Thought:
-        """The best stroke that the budget finds."""
+        """The best stroke that the budget finds; without any simulation left, the likeliest straight pot."""
         tables = self._tables()
-        found = self._pots(tables)
-        plain = float(self._evaluator.values.without_pot(tables[:1])[0]) + PLAIN
-        if self._options.safeties and (found is None or found.worth.max() < plain):
-            found = _together(found, self._others(tables))
+        try:
+            found = self._found(tables)
+        except BudgetSpent:
+            found = None
         if found is None:
-            return self._anything(tables)
+            return self._reckoned(tables)
         if self._options.lookahead:
-            found = self._looked_ahead(found)
-        best = int(found.worth.argmax())
-        action, simulated = self._action(found.shots, best), self._evaluator.budget.simulated
-        return Thought(action, float(found.worth[best]), simulated, self._considered)
+            with contextlib.suppress(BudgetSpent):
+                self._look_ahead(found)
+        for best in np.argsort(-found.worth, kind="stable").tolist():
+            action = self._action(found.shots, best)
+            if not self._rules.check(self._game, action):
+                simulated = self._evaluator.budget.simulated
+                return Thought(action, float(found.worth[best]), simulated, self._considered)
+        return self._anything(tables)
+
+    def _found(self, tables: Tables) -> Finalists | None:
+        """The best strokes of all kinds."""
+        pots = self._pots(tables)
+        plain = float(self._evaluator.values.without_pot(tables[:1])[0]) + PLAIN
+        if not self._options.safeties or (pots is not None and pots.worth.max() >= plain):
+            return pots
+        return _together(pots, self._others(tables))
 
     def _tables(self) -> Tables:
         """Where to play from: the table as it lies, or with the cue ball in many places."""
@@ -148,8 +161,8 @@ class Turn:
         nothing = np.zeros(len(order))
         return Finalists(shots[order], outcomes[order], nothing, nothing.copy())
 
-    def _looked_ahead(self, found: Finalists) -> Finalists:
-        """Corrections by looking ahead, of all finalists and then of the best of them, until the budget is spent."""
+    def _look_ahead(self, found: Finalists) -> None:
+        """Correct all finalists by looking ahead, and then the best of them, until the budget is spent."""
         budget = self._evaluator.budget
         clusters, keep = 3, FINALISTS
         while len(found.shots) > 1:
@@ -157,16 +170,25 @@ class Turn:
             rows = np.argsort(-found.worth, kind="stable")[:keep]
             clusters = min(clusters, int(affordable / len(rows)))
             if clusters < 1:
-                return found
+                return
             outcomes = found.outcomes[rows]
             if found.looked[rows].any() and self._evaluator.noise > 0.0:
                 outcomes = self._evaluator.noisy(found.shots[rows], 24, self._kitchen)
-            found.added[rows] += clusters * correction(self._evaluator, outcomes, clusters)
+            found.added[rows] += clusters * correction(self._evaluator, outcomes, clusters, self._options.clusters)
             found.looked[rows] += clusters
             if self._evaluator.noise == 0.0:
-                return found
+                return
             clusters, keep = min(2 * clusters, 16), max(2, keep // 2)
-        return found
+
+    def _reckoned(self, tables: Tables) -> Thought:
+        """The likeliest straight pot by geometry alone, and if there is none, anything."""
+        sight = self._evaluator.values.sight
+        listed = sight.pots(tables, 1)
+        shots = sight.raised(in_all_ways(tables, listed, 1))
+        if not len(shots):
+            return self._anything(tables)
+        best = int(listed.chance[shots.table, 0].argmax())
+        return Thought(self._action(shots, best), 0.0, self._evaluator.budget.simulated, 0)
 
     def _anything(self, tables: Tables) -> Thought:
         """A safety in the first direction in which the cue is free: nothing else was found."""

@@ -23,7 +23,7 @@ USUAL_REACH, USUAL_CUT = 0.5, math.cos(math.radians(25.0))
 """A ball's own difficulty is its pot from half a metre at 25 degrees: what good position play leaves."""
 PLACED_REACH = 0.25
 """m: with the cue ball in hand it is put this far behind the ghost ball."""
-BLOCKED = 0.6
+BLOCKED = 0.8
 """Chance that a ball no pocket is open for will be made when its turn comes: others move by then, or it is banked."""
 
 NOT_SEEN, FOUND = 0.0, 1.0

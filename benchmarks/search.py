@@ -1,0 +1,233 @@
+"""The shipped `search` in pairs of games: the same racks, the break exchanged, every game its own noise.
+
+`python -m benchmarks.search play --pairs 20 --first 40 --player search:seconds=1,cpu=on --opponent greedy --noise 1`
+plays some pairs and appends a line with one row a pair, so that a long measurement can be made in pieces. `... search
+pool` puts all pieces of the present agent together into a line with one row a match-up: the one that documents cite. A
+piece is repeated exactly if the players are told `shots`; if they are told seconds, up to the machine's speed.
+"""
+
+import argparse
+import functools
+import inspect
+import time
+from collections import Counter, defaultdict
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from scipy.stats import t as student
+
+import client
+from benchmarks import recording
+from benchmarks.recording import Row, Tables
+from client.agents.search import SearchAgent
+from physics import Table
+from physics.engine import digest_of
+from referee import Action, Call, EightBall, Stroke
+from referee.play import MatchSeed, NoiseModel
+from referee.play.local import PlayedGame, play_game
+from referee.wire import View
+
+SEED = 2026
+"""Of all racks and all noise."""
+RULES = EightBall(Table.olympiad())
+
+
+@dataclass
+class Chair:
+    """One player in one game, watched."""
+
+    agent: client.Agent
+    started: bool = False
+    seconds: float = 0.0
+    strokes: int = 0
+
+    def __call__(self, view: View) -> Action:
+        """The agent's action; processor time is counted."""
+        before = time.process_time()
+        if not self.started:
+            self.agent.game_started(view)
+            self.started = True
+            before = time.process_time()  # loading the compiled geometry is not thinking
+        action = self.agent.choose(view)
+        self.seconds += time.process_time() - before
+        self.strokes += action.shot is not None
+        return action
+
+    @property
+    def simulated(self) -> int:
+        """Shots that were simulated, as far as the agent tells."""
+        return sum(thought.simulated for thought in getattr(self.agent, "thoughts", []))
+
+
+@dataclass
+class Tally:
+    """What one player did in some games."""
+
+    points: float = 0.0
+    breaks: int = 0
+    runs: int = 0
+    called: int = 0
+    made: int = 0
+    safeties: int = 0
+    strokes: int = 0
+    seconds: float = 0.0
+    simulated: int = 0
+    fouls: Counter[str] = field(default_factory=Counter)
+
+    def add(self, game: PlayedGame, seat: int, chair: Chair) -> None:
+        """One more game."""
+        winner = game.outcome.winner
+        self.points += 0.5 if winner is None else float(winner == seat)
+        mine = [stroke for stroke in game.strokes if stroke.seat == seat and stroke.shot is not None]
+        if game.header.start.breaker == seat:
+            self.breaks += 1
+            self.runs += winner == seat and all(stroke.seat == seat for stroke in game.strokes)
+        calls = [stroke.ruling.made for stroke in mine if isinstance(stroke.action.call, Call)]
+        self.called, self.made = self.called + len(calls), self.made + sum(calls)
+        self.safeties += sum(stroke.action.is_safety for stroke in mine)
+        self.fouls.update(f"{_kind(stroke)}{rule}" for stroke in mine for rule in stroke.ruling.fouls)
+        self.strokes, self.seconds = self.strokes + chair.strokes, self.seconds + chair.seconds
+        self.simulated += chair.simulated
+
+    def row(self) -> Row:
+        """As plain values."""
+        row: Row = {name: getattr(self, name) for name in _COUNTED}
+        return row | {"seconds": round(self.seconds, 3), "fouls": dict(sorted(self.fouls.items()))}
+
+
+_COUNTED = ("points", "breaks", "runs", "called", "made", "safeties", "strokes", "simulated")
+
+
+def _kind(stroke: Stroke) -> str:
+    """Fouls on the break are counted apart."""
+    return "break " if stroke.action.call is None else ""
+
+
+def play_pair(players: tuple[str, str], noise: float, pair: int) -> Row:
+    """Two games on the same racks; each player breaks one of them."""
+    seed = MatchSeed.of(SEED)
+    factories = [client.load(name, seed=SEED + pair) for name in players]
+    tallies = (Tally(), Tally())
+    for breaker in (0, 1):
+        number = 2 * pair + breaker
+        chairs = Chair(factories[0]()), Chair(factories[1]())
+        seeds = seed.game(number, pairs=True)
+        game = play_game(RULES, chairs, seeds, NoiseModel(noise), breaker=breaker, number=number)
+        for seat, chair in enumerate(chairs):
+            tallies[seat].add(game, seat, chair)
+    first, second = (tally.row() for tally in tallies)
+    return {"pair": pair, "player": players[0], "opponent": players[1], "noise": noise, "of_player": first} | {
+        "of_opponent": second
+    }
+
+
+def play(players: tuple[str, str], noise: float, first: int, pairs: int, seconds: float) -> Tables:
+    """Some pairs, one after the other; no new one is begun after so many seconds."""
+    started, rows, agent = time.monotonic(), [], agent_digest()
+    for pair in range(first, first + pairs):
+        rows.append(play_pair(players, noise, pair) | {"agent": agent})
+        if time.monotonic() - started > seconds:
+            break
+    return {"pairs": rows}
+
+
+@functools.cache
+def agent_digest() -> str:
+    """Which version of the agent: a hash of its sources."""
+    return digest_of(Path(str(inspect.getfile(SearchAgent))).parent)[:12]
+
+
+def pool() -> Tables:
+    """All pairs of the present agent, by match-up."""
+    groups: dict[tuple[str, str, float], dict[int, Row]] = defaultdict(dict)
+    for line in recording.lines("search"):
+        for row in line["tables"].get("pairs", []):
+            if row["agent"] == agent_digest():
+                groups[row["player"], row["opponent"], row["noise"]][row["pair"]] = row
+    return {"matches": [match_row(*key, list(rows.values())) for key, rows in sorted(groups.items())]}
+
+
+def match_row(player: str, opponent: str, noise: float, pairs: list[Row]) -> Row:
+    """One match-up: the score with its interval from pairs, and what both did."""
+    scores = np.array([row["of_player"]["points"] for row in pairs]) / 2.0
+    low, high = interval(scores)
+    mine, theirs = (summed([row[side] for row in pairs]) for side in ("of_player", "of_opponent"))
+    fouls: Counter[str] = Counter()
+    for row in pairs:
+        fouls.update(row["of_player"]["fouls"])
+    return {
+        "player": player,
+        "opponent": opponent,
+        "noise": noise,
+        "pairs": len(pairs),
+        "score": round(float(scores.mean()), 4),
+        "low_95": round(low, 4),
+        "high_95": round(high, 4),
+        "elo": round(elo(float(scores.mean())), 1),
+        "elo_low_95": round(elo(low), 1),
+        "elo_high_95": round(elo(high), 1),
+        "break_and_run": round(mine["runs"] / max(1, mine["breaks"]), 4),
+        "opponent_break_and_run": round(theirs["runs"] / max(1, theirs["breaks"]), 4),
+        "called": mine["called"],
+        "share_made": round(mine["made"] / max(1, mine["called"]), 4),
+        "opponent_share_made": round(theirs["made"] / max(1, theirs["called"]), 4),
+        "safeties": mine["safeties"],
+        "strokes": mine["strokes"],
+        "seconds_per_stroke": round(mine["seconds"] / max(1, mine["strokes"]), 4),
+        "shots_per_stroke": round(mine["simulated"] / max(1, mine["strokes"])),
+        "fouls": dict(sorted(fouls.items())),
+    }
+
+
+def summed(rows: list[Row]) -> Row:
+    """The counts of several tallies."""
+    return {name: sum(row[name] for row in rows) for name in (*_COUNTED, "seconds")}
+
+
+def interval(scores: np.ndarray) -> tuple[float, float]:
+    """95 % interval of the mean score of pairs, by Student's t.
+
+    With no spread at all, as after nothing but won pairs, half a game is taken to differ: the interval is not nothing.
+    """
+    n, spread = len(scores), float(scores.std(ddof=1)) if len(scores) > 1 else 0.5
+    spread = max(spread, 0.5 / n**0.5)
+    half = float(student.ppf(0.975, max(1, n - 1))) * spread / n**0.5
+    return max(0.0, float(scores.mean()) - half), min(1.0, float(scores.mean()) + half)
+
+
+def elo(score: float) -> float:
+    """The difference in Elo that explains a score; a score of all or nothing counts as 0.1 % short of it."""
+    share = min(max(score, 0.001), 0.999)
+    return 400.0 * float(np.log10(share / (1.0 - share)))
+
+
+def measure(full: bool) -> Tables:
+    """A look at the present agent; the cited figures are pooled from pieces."""
+    shots, pairs = (20_000, 20) if full else (1_000, 1)
+    return play((f"search:shots={shots}", "greedy"), 1.0, 0, pairs, seconds=3600.0)
+
+
+def main() -> None:
+    """Play a piece, or pool them all."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.search")
+    commands = parser.add_subparsers(required=True, dest="command")
+    commands.add_parser("pool")
+    piece = commands.add_parser("play")
+    piece.add_argument("--player", default="search:seconds=1,cpu=on")
+    piece.add_argument("--opponent", default="greedy")
+    piece.add_argument("--noise", type=float, default=1.0)
+    piece.add_argument("--first", type=int, default=0)
+    piece.add_argument("--pairs", type=int, default=10)
+    piece.add_argument("--seconds", type=float, default=240.0)
+    given = parser.parse_args()
+    todo: Callable[[bool], Tables] = lambda _full: pool()  # noqa: E731
+    if given.command == "play":
+        players = given.player, given.opponent
+        todo = lambda _full: play(players, given.noise, given.first, given.pairs, given.seconds)  # noqa: E731
+    recording.run("search", todo, full=given.command == "pool")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,49 @@
+"""A bounded share of the measurements of `search`: pairs, their pooling, the studies behind its constants."""
+
+import numpy as np
+import pytest
+
+from benchmarks import search, search_breaks, search_habits
+
+
+def test_a_pair_is_two_games_on_the_same_racks():
+    row = search.play_pair(("search:shots=300", "random"), 1.0, 3)
+    mine, theirs = row["of_player"], row["of_opponent"]
+    assert mine["points"] + theirs["points"] == 2.0
+    assert (mine["breaks"], theirs["breaks"]) == (1, 1)
+    assert mine["strokes"] >= mine["called"] >= mine["made"] >= 0
+    assert mine["simulated"] > 0
+    again = search.play_pair(("search:shots=300", "random"), 1.0, 3)
+    assert {**again["of_player"], "seconds": 0} == {**mine, "seconds": 0}
+
+
+def test_pieces_are_pooled_by_match_up():
+    side = dict.fromkeys(("breaks", "runs", "called", "made", "safeties", "strokes", "simulated"), 1)
+    pairs = [
+        {"pair": pair, "of_player": side | {"points": points, "seconds": 0.5, "fouls": {"R32": 1}}}
+        | {"of_opponent": side | {"points": 2.0 - points, "seconds": 0.1, "fouls": {}}}
+        for pair, points in enumerate([2.0, 2.0, 1.0, 2.0])
+    ]
+    row = search.match_row("a", "b", 1.0, pairs)
+    assert row["score"] == 0.875
+    assert row["low_95"] < 0.875 < row["high_95"] <= 1.0
+    assert (row["pairs"], row["fouls"], row["seconds_per_stroke"]) == (4, {"R32": 4}, 0.5)
+    assert row["elo"] == pytest.approx(338.0, abs=0.1)  # 400 log10(7)
+
+
+def test_nothing_but_wins_is_not_certainty():
+    low, high = search.interval(np.ones(20))
+    assert 0.9 < low < 1.0 == high
+
+
+def test_a_study_of_breaks_finds_one_that_goes_on():
+    best, *others = search_breaks.study(1.0, ((6, 10), (2, 20)))
+    assert best["worth"] >= max(other["worth"] for other in others)
+    assert best["goes_on"] > 0.7  # the studied break is among them; 0.98 of its breaks go on
+
+
+def test_habits_are_counted():
+    tables = search_habits.played(1.0, 1)
+    rows = search_habits.arrival_rows(1.0, tables)
+    assert [row["arrival"] for row in rows] == list(search_habits.ARRIVALS)
+    assert sum(row["strokes"] for row in search_habits.worth_rows(1.0, tables)) > 0
