@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from client.cli.output import FAILED, USAGE, Json, emit, fail, say
+from client.cli.reproduce import Form, reproduction
 
 if TYPE_CHECKING:
     from referee.record import Record, Verification
@@ -27,12 +28,19 @@ def show(
     shot: Annotated[
         int | None, typer.Option(min=1, help="One stroke with its events, by the number the list shows.")
     ] = None,
+    form: Annotated[
+        Form | None, typer.Option("--as", help="With --shot: what simulates it again, as a program or a request.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Print a game, a sentence a stroke; or one stroke with everything that happened in it."""
     record = _read(file)
+    if form is not None and (shot is None or as_json):
+        fail("--as goes with --shot, and without --json", USAGE)
     try:
-        if shot is not None:
+        if form is not None and shot is not None:
+            print(reproduction(record.header, _stroke(record, shot), form))
+        elif shot is not None:
             _show_stroke(record, shot, as_json)
         elif as_json:
             emit({"header": record.header, "strokes": record.entries, "end": record.end})
@@ -118,12 +126,18 @@ def _tell_game(record: "Record") -> None:
     say(f"{winner} wins: {outcome['reason']} ({outcome['rule']})")
 
 
-def _show_stroke(record: "Record", number: int, as_json: bool) -> None:
-    """One stroke in full."""
+def _stroke(record: "Record", number: int) -> dict[str, Any]:
+    """The stroke of this number, from 1; leaves the command when there is none."""
     entry = next((each for each in record.entries if each["stroke"] == number - 1), None)
     if entry is None:
         strokes = sum(each["stroke"] is not None for each in record.entries)
         fail(f"--shot is {number}; this game has strokes 1 to {strokes}", USAGE)
+    return entry
+
+
+def _show_stroke(record: "Record", number: int, as_json: bool) -> None:
+    """One stroke in full."""
+    entry = _stroke(record, number)
     if as_json:
         emit(entry)
     else:

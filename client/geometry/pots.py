@@ -49,10 +49,10 @@ def pot(table: Table, state: TableState, ball: int, pocket: int) -> Pot:
 
     Raises `ValueError` when the cue ball or the ball is not on the table, or the ball is the cue ball.
     """
-    cue_ball, place = _places(state, ball)
+    cue_ball, place = places_of(state, ball)
     if not 0 <= pocket <= 5:
         raise ValueError(f"pocket is {pocket}; pockets are 0 (SW) to 5 (SE)")
-    target = _mouth(table, pocket)
+    target = mouth(table, pocket)
     ghost = ghost_ball(place, target, table.ball_radius)
     cut = cut_angle(cue_ball, place, target, table.ball_radius)
     phi = azimuth(cue_ball, ghost) if ghost != cue_ball else azimuth(place, target)
@@ -75,11 +75,11 @@ def pots(table: Table, state: TableState, balls: Iterable[int], pockets: Iterabl
 
 def _can_be_cut(table: Table, state: TableState, ball: int, pocket: int) -> bool:
     """Whether the cut is one that can be played: quick to see, and false for half of all pairs."""
-    cue_ball, place = _places(state, ball)
-    return cut_angle(cue_ball, place, _mouth(table, pocket), table.ball_radius) <= STEEPEST_CUT
+    cue_ball, place = places_of(state, ball)
+    return cut_angle(cue_ball, place, mouth(table, pocket), table.ball_radius) <= STEEPEST_CUT
 
 
-def _places(state: TableState, ball: int) -> tuple[Point, Point]:
+def places_of(state: TableState, ball: int) -> tuple[Point, Point]:
     """Where the cue ball and `ball` lie."""
     if ball == 0:
         raise ValueError("ball is 0, the cue ball; a pot needs an object ball, 1 to 15")
@@ -90,7 +90,7 @@ def _places(state: TableState, ball: int) -> tuple[Point, Point]:
     return cue_ball, place
 
 
-def _mouth(table: Table, pocket: int) -> Point:
+def mouth(table: Table, pocket: int) -> Point:
     """Middle of a pocket's mouth line for ball centres."""
     x, y = table.mouths[pocket]
     return float(x), float(y)
@@ -98,7 +98,7 @@ def _mouth(table: Table, pocket: int) -> Point:
 
 def _tolerance(table: Table, pocket: int, place: Point, cut: float, reach: float) -> float:
     """Error of the cue's direction (deg) that brings the ball to the edge of the mouth; see the module."""
-    target = _mouth(table, pocket)
+    target = mouth(table, pocket)
     inward = _inward(table, pocket)
     run = distance(place, target)
     facing = abs((place[0] - target[0]) * inward[0] + (place[1] - target[1]) * inward[1]) / run
@@ -116,7 +116,7 @@ def _half_mouth(table: Table, pocket: int) -> float:
 
 def _inward(table: Table, pocket: int) -> Point:
     """Unit normal of a mouth line, towards the table."""
-    x, y = _mouth(table, pocket)
+    x, y = mouth(table, pocket)
     right, up = math.copysign(1.0, 0.5 * table.width - x), math.copysign(1.0, 0.5 * table.length - y)
     return (right, 0.0) if _is_side(pocket) else (right / math.sqrt(2.0), up / math.sqrt(2.0))
 
