@@ -21,7 +21,7 @@ class Bank:
     """One way to send one ball into one pocket over one cushion.
 
     `kick` says whose cushion it is: the cue ball's (True) or the object ball's. `bounce` (m) is where that ball's
-    centre is at the cushion, `ghost` (m) where the cue ball has to be at contact, `phi` (deg) the direction of the shot,
+    centre is at the cushion, `ghost` (m) where the cue ball has to be at contact, `phi` (deg) the shot's direction,
     `cut` (deg) the cut angle, `length` (m) of both balls' paths together, `blockers` the balls in the way of either.
     """
 
