@@ -45,8 +45,7 @@ export function signOut() {
  * @returns {Promise<any>}
  */
 export async function call(method, path, { body, headers = {}, signal } = {}) {
-  const sent = { Accept: "application/json", ...headers };
-  if (token()) sent.Authorization = `Bearer ${token()}`;
+  const sent = { Accept: "application/json", ...(token() && { Authorization: `Bearer ${token()}` }), ...headers };
   if (body !== undefined) sent["Content-Type"] = "application/json";
   const response = await fetch(path, { method, headers: sent, body: body === undefined ? undefined : JSON.stringify(body), signal });
   const text = await response.text();

@@ -11,7 +11,7 @@ const RED = [190, 30, 40];
 
 /** Half the stripe's height and the number's disc, in radii. */
 const STRIPE = 0.52;
-const DISC = 0.5;
+const DISC = 0.56;
 const DOT = 0.965;
 const GLYPH = 48;
 
@@ -92,7 +92,7 @@ export class BallPictures {
   colourAt(ball, x, y, z) {
     if (ball === 0) return Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > DOT ? RED : IVORY;
     const base = isStriped(ball) && Math.abs(z) > STRIPE ? IVORY : colourOf(ball);
-    if (y * y + z * z > DISC * DISC || Math.abs(x) < 0.5) return base;
+    if (y * y + z * z > DISC * DISC || Math.abs(x) < 0.4) return base;
     const ink = this.glyph(ball)[pixel(x > 0 ? y : -y, z)] / 255;
     return ink > 0.5 ? COLOURS[8] : IVORY;
   }
@@ -104,7 +104,7 @@ export class BallPictures {
     const canvas = document.createElement("canvas");
     canvas.width = canvas.height = GLYPH;
     const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));
-    context.font = `700 ${ball > 9 ? 30 : 36}px sans-serif`;
+    context.font = `700 ${ball > 9 ? 36 : 44}px sans-serif`;
     context.textAlign = "center";
     context.textBaseline = "middle";
     context.fillText(String(ball), GLYPH / 2, GLYPH / 2 + 2);
@@ -124,7 +124,7 @@ function pixel(u, v) {
 
 /** Light from the upper left, brightest where the surface faces it. */
 function shade(data, at, colour, z, right, up, cover) {
-  const light = 0.55 + 0.45 * Math.max(0, 0.8 * z - 0.35 * right + 0.45 * up);
+  const light = 0.66 + 0.4 * Math.max(0, 0.8 * z - 0.35 * right + 0.45 * up);
   const shine = Math.max(0, 0.82 * z - 0.34 * right + 0.45 * up) ** 60 * 140;
   data[at] = colour[0] * light + shine;
   data[at + 1] = colour[1] * light + shine;

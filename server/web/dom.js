@@ -49,10 +49,17 @@ export function labelled(label, control) {
   return el("label", { class: "field" }, el("span", {}, label), control);
 }
 
+/** How long something said stays on the screen, ms. */
+const SAID = 6000;
+let silence = 0;
+
 /** Say something to everybody, readers of the screen included. @param {string} text */
 export function announce(text) {
   const status = document.getElementById("status");
-  if (status) status.textContent = text;
+  if (!status) return;
+  clearTimeout(silence);
+  status.textContent = text;
+  silence = setTimeout(() => { status.textContent = ""; }, SAID);
 }
 
 /** A time of the server in the reader's words. @param {string | null} text */

@@ -17,6 +17,8 @@ const ROUTES = [
     make: ([, game, stroke]) => opened(new GameView(), (view) => view.watch(game, stroke === undefined ? null : Number(stroke))),
   },
   { at: /^\/matches\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new MatchView(), (view) => view.open(id)) },
+  { at: /^\/play$/, page: "play", make: async () => opened(new (await import("./view_play.js")).PlayView(), (view) => view.open()) },
+  { at: /^\/lab$/, page: "lab", make: async () => opened(new (await import("./view_lab.js")).LabView(), (view) => view.open()) },
   { at: /^\/agents\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new AgentView(), (view) => view.open(id)) },
 ];
 
@@ -26,11 +28,17 @@ function opened(view, open) {
   return view;
 }
 
+/** Counts changes of address: a view that loads slowly must not replace a later one. */
+let asked = 0;
+
 async function route() {
+  const mine = ++asked;
   const address = location.hash.slice(1);
   const found = ROUTES.map((one) => ({ ...one, match: one.at.exec(address) })).find((one) => one.match);
   document.title = "Pooliad";
-  show(found ? await found.make(found.match) : notFound(address));
+  const view = found ? await found.make(found.match) : notFound(address);
+  if (mine !== asked) return view.close();
+  show(view);
   for (const link of document.querySelectorAll("nav a[data-page]")) {
     if (link.getAttribute("data-page") === found?.page) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");

@@ -24,6 +24,7 @@ export class GameView {
     this.follow = /** @type {HTMLInputElement} */ (el("input", { type: "checkbox", checked: true, onchange: () => this.goOn() }));
     this.ghostButton = el("button", { type: "button", onclick: () => this.ghost() }, "Without noise");
     this.links = el("p", { class: "links" });
+    this.panelPart = el("div", { class: "panel-part" });
     this.element = el("article", { class: "game" },
       this.title, this.connection, this.board.element,
       el("div", { class: "columns" },
@@ -32,8 +33,8 @@ export class GameView {
             el("button", { type: "button", onclick: () => this.choose(this.shown - 1) }, "◂ stroke"),
             el("button", { type: "button", onclick: () => this.choose(this.shown + 1) }, "stroke ▸"),
             this.ghostButton,
-            el("label", { class: "check" }, this.follow, "follow the game"))),
-        el("div", { class: "side-column" }, this.story.element, this.list.element, this.links)));
+            el("label", { class: "check" }, this.follow, "follow the game")), this.story.element),
+        el("div", { class: "side-column" }, this.panelPart, this.list.element, this.links)));
     /** @type {GameModel | null} */
     this.model = null;
     this.shown = -1;
@@ -41,6 +42,19 @@ export class GameView {
     this.stop = () => {};
     /** @type {number | null} */
     this.wanted = null;
+    /** Called whenever every stroke told has been seen. */
+    this.idle = () => {};
+  }
+
+  /** Put controls beside the table. @param {...HTMLElement} controls */
+  panel(...controls) {
+    fill(this.panelPart, controls);
+  }
+
+  /** Whether strokes that led to a view are still to be shown. @param {Record<string, any>} view */
+  isBehind(view) {
+    const known = this.model?.entries.length ?? 0;
+    return known < view.version - 1 || this.shown < known - 1 || this.stage.playback.playing;
   }
 
   /** Watch a game of the server. @param {string} game @param {number | null} stroke to begin with */
@@ -106,10 +120,12 @@ export class GameView {
     if (!model) return;
     const last = model.entries.length - 1;
     if (this.wanted !== null && this.wanted <= last) return this.choose(this.wanted);
-    if (!this.follow.checked || this.stage.playback.playing || this.shown >= last) return;
+    if (!this.follow.checked || this.stage.playback.playing) return;
+    if (this.shown >= last) return this.idle();
     const first = this.shown < 0;
     const next = first || last - this.shown > LAG || reducedMotion() ? last : this.shown + 1;
     this.choose(next, { play: !first, atEnd: first, following: true });
+    if (!this.stage.playback.playing) this.idle();
   }
 
   /**

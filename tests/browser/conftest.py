@@ -28,8 +28,9 @@ _names = itertools.count()
 class Server:
     """`python -m server` on a port it keeps when it is started again."""
 
-    def __init__(self, database: Path) -> None:
+    def __init__(self, database: Path, **environment: str) -> None:
         self._database, self._port = database, 0
+        self._environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER} | environment
         self._log = database.with_suffix(".log").open("ab")
         self.start()
 
@@ -37,7 +38,7 @@ class Server:
         arguments = ["--port", str(self._port), "--database", f"sqlite:///{self._database}"]
         self.process = subprocess.Popen(
             [sys.executable, "-m", "server", *arguments],
-            env=os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER},
+            env=self._environment,
             stdout=subprocess.PIPE,
             stderr=self._log,
             text=True,
@@ -93,6 +94,14 @@ def own_server(tmp_path: Path) -> Iterator[Server]:
     running.close()
 
 
+@pytest.fixture
+def own_server_with_bot(tmp_path: Path) -> Iterator[Server]:
+    """A server that keeps a house bot."""
+    running = Server(tmp_path / "pooliad.db", POOLIAD_HOUSE_BOTS="random")
+    yield running
+    running.close()
+
+
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Any]:
     """Chromium, without a window."""
@@ -131,8 +140,8 @@ class Watched:
 @pytest.fixture
 def watched(request: pytest.FixtureRequest) -> Watched:
     """What is seen of the test's pages; `forgiven` names the faults a test provokes."""
-    name = "own_server" if "own_server" in request.fixturenames else "server"
-    return Watched(request.getfixturevalue(name).url)
+    own = [name for name in request.fixturenames if name.startswith("own_server")]
+    return Watched(request.getfixturevalue(own[0] if own else "server").url)
 
 
 @pytest.fixture

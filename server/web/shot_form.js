@@ -1,0 +1,98 @@
+/** The five parameters of a shot: numbers and sliders, and a picture of the cue ball for side and height. */
+
+import { el, labelled } from "./dom.js";
+import { BALL_RADIUS } from "./motion.js";
+
+/** @typedef {{v: number, phi: number, theta: number, a: number, b: number}} Shot m/s, deg, deg, mm, mm */
+
+/** Farthest the tip may be from the centre here, mm: beyond it every stroke is a miscue waiting to happen. */
+const REACH = Math.floor(BALL_RADIUS * 1000 * 0.75);
+const SVG = "http://www.w3.org/2000/svg";
+
+export class ShotForm {
+  /** @param {() => void} changed */
+  constructor(changed) {
+    this.changed = changed;
+    /** @type {Shot} */
+    this.shot = { v: 2, phi: 270, theta: 5, a: 0, b: 0 };
+    this.fields = {
+      v: this.field("v", "Cue speed, m/s", 0, 10, 0.05),
+      phi: this.field("phi", "Direction, degrees", 0, 360, 0.05),
+      theta: this.field("theta", "Cue raised, degrees", 0, 70, 0.1),
+      a: this.field("a", "Side, mm (right is positive)", -REACH, REACH, 0.5),
+      b: this.field("b", "Height, mm (up is positive)", -REACH, REACH, 0.5),
+    };
+    this.dot = shape("circle", { r: 5, class: "dot", fill: "#b3202c" });
+    this.picture = this.cueBall();
+    this.element = el("fieldset", { class: "panel shot-form" }, el("legend", {}, "Shot"),
+      this.fields.phi.element, this.fields.v.element, this.fields.theta.element,
+      el("div", { class: "picker" }, this.picture, el("div", {}, this.fields.a.element, this.fields.b.element)));
+    this.write();
+  }
+
+  field(name, label, least, most, step) {
+    const set = (event) => this.set({ [name]: Number(/** @type {HTMLInputElement} */ (event.target).value) });
+    const slider = /** @type {HTMLInputElement} */ (el("input", {
+      type: "range", min: least, max: most, step, oninput: set, "aria-label": `${label}, slider`,
+    }));
+    const number = /** @type {HTMLInputElement} */ (el("input", { type: "number", min: least, max: most, step: "any", onchange: set, name }));
+    return { slider, number, element: el("div", { class: "number-field" }, labelled(label, number), slider) };
+  }
+
+  /** The cue ball as the player sees it: a click puts the tip there; keys do it by the two numbers. */
+  cueBall() {
+    const picture = shape("svg", { viewBox: "-50 -50 100 100", width: 120, height: 120, "aria-hidden": "true" });
+    picture.append(
+      shape("circle", { r: 48, fill: "#f4f0e4", stroke: "#555" }),
+      shape("path", { d: "M-48 0H48M0 -48V48", stroke: "#bbb" }),
+      this.dot,
+    );
+    const pick = (event) => {
+      if (!event.buttons) return;
+      const box = picture.getBoundingClientRect();
+      const a = (((event.clientX - box.left) / box.width) * 100 - 50) / 48 * BALL_RADIUS * 1000;
+      const b = (50 - ((event.clientY - box.top) / box.height) * 100) / 48 * BALL_RADIUS * 1000;
+      const shrink = Math.min(1, REACH / Math.hypot(a, b));
+      this.set({ a: round(a * shrink), b: round(b * shrink) });
+    };
+    picture.addEventListener("pointerdown", pick);
+    picture.addEventListener("pointermove", pick);
+    return picture;
+  }
+
+  /** Change some of the parameters. @param {Partial<Shot>} changes */
+  set(changes) {
+    for (const [name, value] of Object.entries(changes)) {
+      if (Number.isFinite(value)) this.shot = { ...this.shot, [name]: this.allowed(name, value) };
+    }
+    this.write();
+    this.changed();
+  }
+
+  allowed(name, value) {
+    if (name === "phi") return ((value % 360) + 360) % 360;
+    const { slider } = this.fields[name];
+    return Math.min(Number(slider.max), Math.max(Number(slider.min), value));
+  }
+
+  write() {
+    for (const [name, { slider, number }] of Object.entries(this.fields)) {
+      slider.value = String(this.shot[name]);
+      number.value = String(Math.round(this.shot[name] * 1000) / 1000);
+    }
+    const scale = 48 / (BALL_RADIUS * 1000);
+    this.dot.setAttribute("cx", String(this.shot.a * scale));
+    this.dot.setAttribute("cy", String(-this.shot.b * scale));
+  }
+}
+
+function round(value) {
+  return Math.round(value * 2) / 2;
+}
+
+/** @param {string} tag @param {Record<string, unknown>} attributes */
+function shape(tag, attributes) {
+  const made = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  return made;
+}

@@ -1,0 +1,243 @@
+/** The laboratory: any position, any shot; what it does, how far noise spreads it, and how to say it elsewhere. */
+
+import { ProblemError, call, identity } from "./api.js";
+import { announce, el, fill, labelled } from "./dom.js";
+import { handle } from "./handling.js";
+import { density, heatPainter, noisy } from "./heat.js";
+import { mayLie } from "./placement.js";
+import { Preview } from "./preview.js";
+import { ShotForm } from "./shot_form.js";
+import { signInPanel } from "./sign_in.js";
+import { asCurl, asJson, asPython, notation, readNotation } from "./snippets.js";
+import { Stage, cueOf } from "./stage.js";
+import { Trace } from "./trace.js";
+import { POCKETS, ballName, describeEvent } from "./words.js";
+
+const VARIANTS = 200;
+const START = { 0: [0.5, 1.7], 3: [0.4, 0.6], 8: [0.7, 0.9] };
+const TABLE = {
+  name: "olympiad", width: 1.116, length: 2.236, corner_mouth: 0.11, side_mouth: 0.12,
+  mu_slide: 0.2, mu_roll: 0.015, mu_spin: 0.044, collisions: "consistent",
+};
+const WRITERS = {
+  Notation: (balls) => notation(balls),
+  Python: asPython,
+  JSON: asJson,
+  curl: (balls, shot) => asCurl(balls, shot, location.origin),
+};
+
+export class LabView {
+  constructor() {
+    this.element = el("article", { class: "lab" });
+    /** @type {import("./trace.js").Balls} */
+    this.balls = structuredClone(START);
+    /** @type {Stage | null} */
+    this.stage = null;
+    /** @type {any} */
+    this.answer = null;
+    /** @type {((context: any, projection: any) => void) | null} */
+    this.heat = null;
+    this.paths = null;
+  }
+
+  open() {
+    if (!identity()) {
+      return fill(this.element, el("h1", {}, "Laboratory"),
+        el("p", {}, "The server simulates for those it knows."), signInPanel(() => this.open()));
+    }
+    this.stage = new Stage();
+    this.form = new ShotForm(() => this.changed());
+    this.preview = new Preview((answer, elevation, problem) => this.previewed(answer, elevation, problem));
+    this.problem = el("p", { class: "refusal", role: "alert" });
+    this.outcome = el("p", { role: "status" });
+    this.events = el("ol", { class: "events" });
+    this.lowest = /** @type {HTMLInputElement} */ (el("input", { type: "checkbox", checked: true, onchange: () => this.changed() }));
+    fill(this.element, el("h1", {}, "Laboratory"),
+      el("div", { class: "columns" },
+        el("div", { class: "main-column" }, this.stage.element,
+          el("div", { class: "controls" },
+            el("button", { type: "button", class: "first", onclick: () => this.play() }, "Play the shot"),
+            el("button", { type: "button", onclick: () => this.changed() }, "Back to the position"))),
+        el("div", { class: "side-column" }, this.problem, this.outcome, this.ballPart(), this.form.element,
+          el("label", { class: "check" }, this.lowest, "cue as low as it can be"), this.spreadPart(), this.textPart(),
+          el("details", {}, el("summary", {}, "Events"), this.events))));
+    this.stage.useTable(TABLE);
+    this.stage.decorate = (scene) => this.decorate(scene);
+    handle(this.stage, this.hands());
+    this.changed();
+  }
+
+  ballPart() {
+    const balls = Array.from({ length: 16 }, (_, ball) => ball);
+    this.which = /** @type {HTMLSelectElement} */ (el("select", {}, balls.map((ball) => el("option", { value: ball }, ballName(ball)))));
+    return el("fieldset", { class: "panel" }, el("legend", {}, "Balls"),
+      el("p", { class: "facts" }, "Drag balls on the table; drag beside them to aim."),
+      el("div", { class: "choices" }, labelled("Ball", this.which),
+        el("button", { type: "button", onclick: () => this.add() }, "Put on the table"),
+        el("button", { type: "button", onclick: () => this.remove() }, "Take away")));
+  }
+
+  spreadPart() {
+    this.level = /** @type {HTMLInputElement} */ (el("input", { type: "number", min: 0, max: 5, step: 0.1, value: 1 }));
+    this.shownBall = /** @type {HTMLSelectElement} */ (el("select", { onchange: () => this.drawHeat() },
+      el("option", { value: "" }, "all that moved"), Array.from({ length: 16 }, (_, ball) => el("option", { value: ball }, ballName(ball)))));
+    this.fallen = el("p", { class: "facts", role: "status" });
+    return el("fieldset", { class: "panel" }, el("legend", {}, "Spread by noise"),
+      el("div", { class: "choices" }, labelled("Level of noise", this.level), labelled("Ends of", this.shownBall),
+        el("button", { type: "button", onclick: () => this.spread() }, `Play it ${VARIANTS} times`)), this.fallen);
+  }
+
+  textPart() {
+    this.format = /** @type {HTMLSelectElement} */ (el("select", { onchange: () => this.writeText() },
+      Object.keys(WRITERS).map((name) => el("option", { value: name }, name))));
+    this.text = /** @type {HTMLTextAreaElement} */ (el("textarea", { class: "code", spellcheck: "false", "aria-label": "Text" }));
+    return el("fieldset", { class: "panel" }, el("legend", {}, "As text"),
+      el("div", { class: "choices" }, labelled("Format", this.format),
+        el("button", { type: "button", onclick: () => this.copy() }, "Copy"),
+        el("button", { type: "button", onclick: () => this.readText() }, "Set up from the notation")), this.text);
+  }
+
+  hands() {
+    return {
+      active: () => !this.stage.entry,
+      balls: () => this.balls,
+      movable: () => true,
+      move: (ball, place) => this.put(ball, place),
+      aim: (phi) => this.form.set({ phi }),
+      turn: (degrees) => this.form.set({ phi: this.form.shot.phi + degrees }),
+      tapBall: (ball) => { this.which.value = String(ball); },
+      tapPocket: () => {},
+      nudge: (right, up) => this.nudge(right, up),
+      speed: (step) => this.form.set({ v: this.form.shot.v + step }),
+    };
+  }
+
+  /** @param {number} ball @param {[number, number]} place */
+  put(ball, place) {
+    if (!mayLie(TABLE, this.balls, ball, place)) return;
+    this.balls = { ...this.balls, [ball]: place };
+    this.which.value = String(ball);
+    this.changed();
+  }
+
+  nudge(right, up) {
+    const ball = Number(this.which.value);
+    const { axes } = this.stage.picture.projection;
+    const place = this.balls[ball];
+    if (place) this.put(ball, [place[0] + right * axes.right[0] + up * axes.up[0], place[1] + right * axes.right[1] + up * axes.up[1]]);
+  }
+
+  add() {
+    const ball = Number(this.which.value);
+    for (let y = TABLE.length / 2; y > 0.1; y -= 0.07) {
+      for (let x = 0.1; x < TABLE.width; x += 0.07) if (mayLie(TABLE, this.balls, ball, [x, y])) return this.put(ball, [x, y]);
+    }
+  }
+
+  remove() {
+    const { [this.which.value]: gone, ...rest } = this.balls;
+    if (!gone || this.which.value === "0") return announce("The cue ball stays on the table.");
+    this.balls = rest;
+    this.changed();
+  }
+
+  changed() {
+    this.heat = this.paths = this.answer = null;
+    fill(this.problem);
+    fill(this.fallen);
+    this.stage.rest(this.balls);
+    this.preview.ask(TABLE, this.balls, this.form.shot, this.lowest.checked);
+    this.writeText();
+  }
+
+  previewed(answer, elevation, problem) {
+    fill(this.problem, problem);
+    if (elevation !== null && this.lowest.checked) {
+      this.form.shot = { ...this.form.shot, theta: elevation };
+      this.form.write();
+    }
+    this.answer = answer;
+    this.paths = answer?.events ? new Trace(TABLE, this.balls, answer.events, answer.duration) : null;
+    const fallen = answer?.events?.filter((event) => event.kind === "pocket_collision").map(describeEvent) ?? [];
+    fill(this.outcome, answer ? [`${answer.n_events} events in ${answer.duration.toFixed(2)} s`, ...fallen].join("; ") : "");
+    fill(this.events, (answer?.events ?? []).slice(0, 400).map((event) => el("li", { value: event.index }, `${event.time.toFixed(4)} s  ${describeEvent(event)}`)));
+    this.stage.redraw();
+    this.writeText();
+  }
+
+  /** @param {import("./table_picture.js").Scene} scene */
+  decorate(scene) {
+    if (this.heat) scene.under = this.heat;
+    if (this.stage.entry || !this.balls[0]) return;
+    scene.cue = cueOf(this.balls[0], this.form.shot, -0.2);
+    for (const ball of this.paths?.balls ?? []) {
+      const points = this.paths.path(ball);
+      if (points.length > 2) scene.lines?.push({ points, colour: "#9bd7ff", alpha: 0.9 });
+    }
+  }
+
+  play() {
+    if (!this.answer?.events) return;
+    const { events, duration } = this.answer;
+    const { shot } = this.form;
+    this.stage.load({ before: this.balls, events, duration, shot, action: { shot, call: null } }, this.balls, { play: true });
+  }
+
+  async spread() {
+    const shots = Array.from({ length: VARIANTS }, () => noisy(this.form.shot, Number(this.level.value) || 0));
+    try {
+      const { results } = await call("POST", "/v1/simulate/batch", { body: { table: "olympiad", balls: this.balls, shots } });
+      this.rows = results;
+      this.drawHeat();
+      fill(this.fallen, this.fallenText(results));
+    } catch (error) {
+      fill(this.problem, error instanceof ProblemError ? error.message : "The server cannot be reached.");
+    }
+  }
+
+  fallenText(results) {
+    const counts = new Map();
+    for (const { pocketed } of results) {
+      for (const [ball, pocket] of Object.entries(pocketed)) {
+        const name = `${ballName(Number(ball))} ${POCKETS[pocket]}`;
+        counts.set(name, (counts.get(name) ?? 0) + 1);
+      }
+    }
+    const parts = [...counts].sort((one, two) => two[1] - one[1]).map(([name, count]) => `${name} ${Math.round((100 * count) / results.length)} %`);
+    return parts.length ? `Pocketed: ${parts.join(", ")}` : "No ball is pocketed.";
+  }
+
+  drawHeat() {
+    if (!this.rows) return;
+    const only = this.shownBall.value === "" ? null : Number(this.shownBall.value);
+    this.heat = heatPainter(density(this.rows, this.balls, only));
+    this.stage.redraw();
+  }
+
+  writeText() {
+    this.text.value = WRITERS[this.format.value](this.balls, this.form.shot);
+  }
+
+  async copy() {
+    this.text.select();
+    await navigator.clipboard?.writeText(this.text.value).catch(() => {});
+    announce("Copied.");
+  }
+
+  readText() {
+    try {
+      const balls = readNotation(this.text.value);
+      if (!balls[0]) throw new Error("The notation names no cue ball, 0.");
+      this.balls = balls;
+      this.format.value = "Notation";
+      this.changed();
+    } catch (error) {
+      fill(this.problem, error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  close() {
+    this.preview?.cancel();
+    this.stage?.close();
+  }
+}

@@ -1,0 +1,260 @@
+/** Play: sign in, find an opponent, and take turns until the match is over. */
+
+import { ProblemError, call, command, get, identity, newKey, signOut, token } from "./api.js";
+import { Aiming } from "./aiming.js";
+import { announce, el, fill, labelled } from "./dom.js";
+import { signInPanel } from "./sign_in.js";
+import { GameView } from "./view_game.js";
+
+const AGAIN = 2000;
+const SECONDS = 900;
+
+export class PlayView {
+  constructor() {
+    this.top = el("div", {});
+    this.gamePart = el("div", {});
+    this.element = el("article", { class: "play" }, this.top, this.gamePart);
+    /** @type {GameView | null} */
+    this.game = null;
+    /** @type {Aiming | null} */
+    this.aiming = null;
+    /** @type {any} the view of a turn that waits until the picture has caught up */
+    this.turn = null;
+    this.closed = false;
+    this.polls = new AbortController();
+    /** @type {string | null} */
+    this.match = null;
+  }
+
+  open() {
+    const me = identity();
+    if (!me) return fill(this.top, el("h1", {}, "Play"), signInPanel(() => this.open()));
+    this.chooseOpponent(me);
+    return this.continueMatch(me);
+  }
+
+  /** A match that is on already, of this tab or another. */
+  async continueMatch(me) {
+    const { matches } = await get(`/v1/matches?agent=${me.id}&status=running`);
+    if (matches.length) this.enter(matches[0].id);
+  }
+
+  chooseOpponent(me) {
+    this.problem = el("p", { class: "refusal", role: "alert" });
+    this.noise = /** @type {HTMLSelectElement} */ (el("select", {},
+      [["0", "none"], ["0.5", "half"], ["1", "as in tournaments"]].map(([value, name]) => el("option", { value, selected: value === "0.5" }, name))));
+    const name = /** @type {HTMLInputElement} */ (el("input", { maxlength: 64 }));
+    const bots = el("div", { class: "choices" }, "Looking …");
+    const challenges = el("div", { class: "choices" });
+    fill(this.top, el("h1", {}, "Play"),
+      el("p", {}, "You are ", el("strong", {}, me.name), ". ",
+        el("button", { type: "button", onclick: () => this.leave() }, "Sign out")),
+      this.problem,
+      el("section", { class: "panel", "aria-label": "Opponent" }, labelled("Noise of the strokes", this.noise),
+        el("h2", {}, "Against the house"), bots,
+        el("h2", {}, "Against another player"),
+        el("form", { onsubmit: (event) => { event.preventDefault(); this.challengeByName(name.value.trim()); } },
+          labelled("Name of the player", name), el("button", {}, "Challenge")),
+        el("h2", {}, "Challenges to you"), challenges));
+    this.showBots(bots);
+    this.showChallenges(challenges, me);
+  }
+
+  async showBots(place) {
+    const { agents } = await get("/v1/agents?house=true").catch(() => ({ agents: [] }));
+    fill(place, agents.length ? agents.map((bot) => el("button", { type: "button", onclick: () => this.challenge(bot.id) }, `Play ${bot.name}`)) :
+      el("p", { class: "empty" }, "This server keeps no house player."));
+  }
+
+  async showChallenges(place, me) {
+    while (!this.closed && !this.match) {
+      const { matches } = await get(`/v1/matches?agent=${me.id}&status=challenged`).catch(() => ({ matches: [] }));
+      const mine = matches.filter((match) => match.agents[match.challenger] !== me.id);
+      fill(place, mine.length ? mine.map((match) => el("button", { type: "button", onclick: () => this.accept(match.id) },
+        `Accept ${match.players[match.challenger]}`)) : el("p", { class: "empty" }, "None."));
+      await pause(AGAIN);
+    }
+  }
+
+  async challengeByName(name) {
+    let cursor = "";
+    do {
+      const page = await get(`/v1/agents?limit=200${cursor && `&cursor=${cursor}`}`);
+      const found = page.agents.find((agent) => agent.name === name);
+      if (found) return this.challenge(found.id);
+      cursor = page.next_cursor;
+    } while (cursor);
+    fill(this.problem, `There is no player called ${name}.`);
+  }
+
+  async challenge(opponent) {
+    const terms = { agents: [identity().id, opponent], games: 1, noise: { level: Number(this.noise.value), told: true }, clock: { seconds: SECONDS } };
+    await this.attempt(async () => {
+      const match = await command("/v1/matches", terms);
+      this.enter(match.id);
+    });
+  }
+
+  async accept(match) {
+    await this.attempt(async () => this.enter((await command(`/v1/matches/${match}/accept`)).id));
+  }
+
+  async attempt(act) {
+    try {
+      fill(this.problem);
+      await act();
+    } catch (error) {
+      fill(this.problem, words(error));
+    }
+  }
+
+  /** Wait for the match's game, then play it. @param {string} id */
+  async enter(id) {
+    if (this.match) return;
+    this.match = id;
+    fill(this.top, el("h1", {}, "Play"), el("p", { role: "status" }, "Waiting for the opponent …"));
+    while (!this.closed) {
+      const match = await get(`/v1/matches/${id}`).catch(() => null);
+      if (match?.status === "aborted") return this.over("The match was called off.");
+      const game = match?.played.at(-1);
+      if (game) {
+        this.begin(game.id);
+        return this.poll();
+      }
+      await pause(500);
+    }
+  }
+
+  /** @param {string} game */
+  begin(game) {
+    fill(this.top);
+    this.game?.close();
+    this.game = new GameView();
+    this.aiming = new Aiming(this.game.stage, (action) => this.act(action));
+    this.game.idle = () => this.prepare();
+    const concede = el("button", { type: "button", onclick: () => this.concede(concede) }, "Concede");
+    this.concedeButton = concede;
+    this.game.panel(this.aiming.element, concede);
+    fill(this.gamePart, this.game.element);
+    this.game.watch(game);
+  }
+
+  /** Ask for turns until the match is over. A turn is asked for once: it waits until it is answered. */
+  async poll() {
+    while (!this.closed && !this.turn) {
+      try {
+        const message = await call("GET", "/v1/turns?wait=25", { signal: this.polls.signal });
+        if (message) this.told(message);
+        if (message?.type === "match_over") return;
+      } catch (error) {
+        if (this.closed) return;
+        if (error instanceof ProblemError && error.status === 401) return this.leave();
+        await pause(AGAIN);
+      }
+    }
+  }
+
+  told(message) {
+    if (message.match && message.match !== this.match && message.type !== "turn") return;
+    if (message.type === "turn") {
+      if (message.game !== this.game.model?.terms.id && this.game.model) this.begin(message.game);
+      this.turn = message.view;
+      this.prepare();
+    } else if (message.type === "match_over") {
+      this.over("");
+    }
+  }
+
+  /** Take the turn, once the strokes before it have been seen. */
+  prepare() {
+    const { turn, game } = this;
+    if (!turn || !game?.model || game.isBehind(turn) || this.aiming.view) return;
+    this.aiming.begin(turn);
+    announce("It is your turn.");
+  }
+
+  /** @param {Record<string, any>} action */
+  async act(action) {
+    const view = this.turn;
+    if (!view) return;
+    const verb = action.decision ? "decisions" : "shots";
+    try {
+      const answer = await sent(`/v1/games/${view.game}/${verb}`, action, view.version);
+      this.aiming.end();
+      const goesOn = answer.view.turn === answer.view.seat;
+      this.turn = goesOn ? answer.view : null;
+      this.game.follow.checked = true;
+      this.game.goOn();
+      if (!goesOn) this.poll();
+    } catch (error) {
+      this.refused(error);
+    }
+  }
+
+  refused(error) {
+    const gone = error instanceof ProblemError && ["stale_version", "game_finished", "not_your_turn", "out_of_time"].includes(error.problem.code);
+    if (!gone) return this.aiming.refuse(words(error));
+    this.aiming.end();
+    this.turn = null;
+    this.poll();
+  }
+
+  concede(button) {
+    if (!this.turn) return announce("You can concede when it is your turn.");
+    if (button.textContent === "Concede") return fill(button, "Really concede?");
+    fill(button, "Concede");
+    return this.act({ decision: "concede" });
+  }
+
+  over(said) {
+    this.match = null;
+    this.turn = null;
+    fill(this.top, el("h1", {}, "Play"), said && el("p", {}, said),
+      el("button", { type: "button", class: "first", onclick: () => this.again() }, "Play again"));
+  }
+
+  again() {
+    this.game?.close();
+    this.game = null;
+    fill(this.gamePart);
+    this.chooseOpponent(identity());
+  }
+
+  leave() {
+    this.close();
+    signOut();
+    location.reload();
+  }
+
+  close() {
+    this.closed = true;
+    this.polls.abort();
+    this.aiming?.end();
+    this.game?.close();
+  }
+}
+
+/** Send an action, again with the same name when the connection fails: it is carried out once. */
+async function sent(path, body, version) {
+  const key = newKey();
+  for (let attempt = 1; ; attempt++) {
+    try {
+      return await command(path, body, { version, key });
+    } catch (error) {
+      if ((error instanceof ProblemError && error.status < 500) || attempt === 20) throw error;
+      await pause(Math.min(AGAIN, 200 * attempt));
+    }
+  }
+}
+
+/** @param {unknown} error */
+function words(error) {
+  if (!(error instanceof ProblemError)) return "The server cannot be reached.";
+  const faults = error.problem.errors ?? [];
+  return faults.length ? faults.map((fault) => fault.detail ?? `${fault.field}: ${fault.allowed}`).join(" ") : error.message;
+}
+
+/** @param {number} milliseconds */
+function pause(milliseconds) {
+  return new Promise((go) => setTimeout(go, milliseconds));
+}

@@ -1,0 +1,224 @@
+"""Playing by hand: the page's own controls, against another player and against a house bot; the laboratory."""
+
+import json
+import re
+
+import pytest
+from support.play_along import Match, act
+from support.players import Potter
+
+import physics
+from client import notation
+from referee.wire import View
+
+FRAME = 0.11
+"""Width of the frame drawn around the cushion noses, m."""
+PATIENCE = 60_000
+
+
+class Hand:
+    """Somebody at the page: thinks like a `Potter`, and works the controls."""
+
+    def __init__(self, page, server) -> None:
+        self.page, self.server = page, server
+        self.potter = Potter("hand")
+        self.token = page.evaluate("sessionStorage.getItem('pooliad.token')")
+        self.id = json.loads(page.evaluate("sessionStorage.getItem('pooliad.agent')"))["id"]
+
+    def view(self, game: str) -> View:
+        answer = self.server.send("GET", f"/v1/games/{game}", self.token)
+        return View.model_validate(answer.json()["view"])
+
+    def take_turn(self, view: View) -> None:
+        """Do by the controls what the potter would do."""
+        turn = self.page.get_by_role("region", name="Your turn")
+        turn.wait_for(timeout=PATIENCE)
+        action = self.potter(view)
+        if action.decision is not None:
+            turn.get_by_role("button", name=str(action.decision).replace("_", " "), exact=True).click()
+        else:
+            if action.cue_ball is not None:
+                self.fill("Cue ball across, m", action.cue_ball[0])
+                self.fill("Cue ball along, m", action.cue_ball[1])
+            self.call(action.call)
+            self.fill("Direction, degrees", action.shot.phi % 360)
+            with self.page.expect_response("**/v1/simulate"):
+                self.fill("Cue speed, m/s", action.shot.v)
+            turn.get_by_role("button", name="Shoot").click()
+
+    def call(self, call) -> None:
+        if call == "safety":
+            self.page.get_by_role("checkbox", name="safety").check()
+        elif call is not None:
+            self.page.get_by_role("checkbox", name="safety").uncheck()
+            self.page.get_by_label("Called ball").select_option(str(call.ball))
+            self.page.get_by_label("Pocket").select_option(str(call.pocket))
+
+    def fill(self, label: str, value: float) -> None:
+        field = self.page.get_by_label(label, exact=True)
+        field.fill(repr(value))
+        field.press("Tab")
+
+
+@pytest.fixture
+def human(new_page, server) -> Hand:
+    """At the page Play, signed in under a new name; without animations, as whoever prefers so."""
+    page = new_page(reduced_motion="reduce")
+    page.goto(f"{server.url}/#/play")
+    page.get_by_label("New here? Choose a name").fill(f"human {id(page)}")
+    page.get_by_role("button", name="Begin").click()
+    page.get_by_text("You are").wait_for()
+    return Hand(page, server)
+
+
+def challenge(hand: Hand) -> tuple[Match, int]:
+    """A match that the hand asks for by name and the other accepts; the other's seat."""
+    other = hand.server.register()
+    hand.page.get_by_label("Name of the player").fill(other["agent"]["name"])
+    hand.page.get_by_role("button", name="Challenge").click()
+    hand.page.get_by_text("Waiting for the opponent").wait_for()
+    (view,) = hand.server.http.get(f"/v1/matches?agent={hand.id}").json()["matches"]
+    hand.server.send("POST", f"/v1/matches/{view['id']}/accept", other["token"])
+    seat = view["agents"].index(other["agent"]["id"])
+    tokens = [hand.token, hand.token]
+    tokens[seat] = other["token"]
+    return Match(hand.server, view, tokens), seat
+
+
+def play_out(hand: Hand, match: Match, other: int, most: int) -> bool:
+    """Play on, the hand at the page and the other by requests; whether the game ended by the rules."""
+    for _ in range(most):
+        view = hand.view(match.game)
+        if view.turn is None:
+            return True
+        if view.turn != other:
+            hand.take_turn(view)
+            wait_for_version(hand, match, view)
+            continue
+        message = hand.server.send("GET", "/v1/turns?wait=10", match.tokens[other]).json()
+        act(match, other, View.model_validate(message["view"]))
+    return False
+
+
+def wait_for_version(hand: Hand, match: Match, view: View) -> None:
+    """Until the server has what the page sent; a refusal shows on the page and fails here."""
+    for _ in range(100):
+        if hand.view(match.game).version > view.version:
+            return
+        hand.page.wait_for_timeout(50)
+    pytest.fail(f"nothing was accepted: {hand.page.locator('.refusal').all_inner_texts()}, {view}")
+
+
+def test_a_whole_game_is_played_by_hand(human):
+    """From the sign-in over the challenge and the break to the result, every stroke by the page's controls."""
+    match, other = challenge(human)
+    human.page.get_by_role("heading", level=1).filter(has_text="–").wait_for()
+    assert play_out(human, match, other, 400)
+    human.page.locator(".result", has_text=re.compile("wins|Drawn")).wait_for()
+    human.page.get_by_role("button", name="Play again").wait_for()
+    view = human.view(match.game)
+    assert human.page.locator("ol.strokes li").count() == view.version - 1
+    assert view.outcome.rule in {"R42", "R43", "R44", "R45", "R46", "R49"}
+    strokes = human.server.http.get(f"/v1/games/{match.game}/shots?limit=200").json()["shots"]
+    by_hand = [one for one in strokes if one["seat"] != other]
+    assert len([one for one in by_hand if one["shot"]]) >= 3
+
+
+def test_the_cue_ball_is_dragged_and_the_cue_aimed_by_mouse_and_keys(human):
+    """The break by pointer: an illegal place is shown as one; a drag beside the ball aims; arrows turn and speed up."""
+    match, other = challenge(human)
+    while human.view(match.game).turn == other:
+        message = human.server.send("GET", "/v1/turns?wait=10", match.tokens[other]).json()
+        act(match, other, View.model_validate(message["view"]))
+    page = human.page
+    turn = page.get_by_role("region", name="Your turn")
+    turn.wait_for(timeout=PATIENCE)
+    view = human.view(match.game)
+    if view.cue_ball_area is None:
+        pytest.skip("the break of this seed leaves no ball in hand")
+    table = view.table_model()
+    start = tuple(float(page.get_by_label(f"Cue ball {way}, m").input_value()) for way in ("across", "along"))
+    drag(page, table, start, (0.3, 1.95))
+    moved = tuple(float(page.get_by_label(f"Cue ball {way}, m").input_value()) for way in ("across", "along"))
+    assert moved == pytest.approx((0.3, 1.95), abs=0.005)
+    drag(page, table, moved, (0.3, 0.5 if view.phase == "break" else -0.05))
+    turn.get_by_text("may not lie there").wait_for()
+    assert turn.get_by_role("button", name="Shoot").is_disabled()
+    human.fill("Cue ball across, m", 0.3)
+    human.fill("Cue ball along, m", 1.95)
+    drag(page, table, (0.8, 1.2), (0.5, 1.95))
+    direction = page.get_by_label("Direction, degrees", exact=True)
+    assert float(direction.input_value()) == pytest.approx(0.0, abs=1.0)
+    page.locator(".table canvas").press("ArrowRight")
+    assert float(direction.input_value()) == pytest.approx(359.0, abs=1.0)
+    speed = page.get_by_label("Cue speed, m/s", exact=True)
+    before = float(speed.input_value())
+    page.locator(".table canvas").press("Shift+ArrowDown")
+    assert float(speed.input_value()) == pytest.approx(before - 0.05)
+
+
+def drag(page, table: physics.Table, start, end) -> None:
+    canvas = page.locator(".table canvas")
+    canvas.scroll_into_view_if_needed()
+    box = canvas.bounding_box()
+    page.mouse.move(*pixel(table, box, start))
+    page.mouse.down()
+    page.mouse.move(*pixel(table, box, end), steps=4)
+    page.mouse.up()
+
+
+def pixel(table: physics.Table, box, place) -> tuple[float, float]:
+    """Where the page draws a place of the table: to scale, upright or lying, never mirrored."""
+    if box["width"] > box["height"]:
+        scale = box["width"] / (table.length + 2 * FRAME)
+        right, down = table.length - place[1], table.width - place[0]
+    else:
+        scale = box["width"] / (table.width + 2 * FRAME)
+        right, down = place[0], table.length - place[1]
+    return box["x"] + (FRAME + right) * scale, box["y"] + (FRAME + down) * scale
+
+
+def test_the_laboratory_simulates_spreads_and_writes(human):
+    """What the page says of a shot is what the physics says, and what it writes can be read."""
+    page = human.page
+    page.goto(f"{human.server.url}/#/lab")
+    page.get_by_label("Text", exact=True).fill("0:0.5,1.7 3:0.4,0.6")
+    page.get_by_role("button", name="Set up from the notation").click()
+    page.get_by_role("checkbox", name="cue as low as it can be").uncheck()
+    for label, value in (
+        ("Direction, degrees", 265.0),
+        ("Cue raised, degrees", 5.0),
+        ("Height, mm (up is positive)", 4.0),
+    ):
+        human.fill(label, value)
+    state = notation.read("0:0.5,1.7 3:0.4,0.6")
+    result = physics.simulate(physics.Table.olympiad(), state, physics.Shot(3.0, 265.0, 5.0, 0.0, 4.0))
+    human.fill("Cue speed, m/s", 3.0)
+    page.get_by_text(f"{result.n_events} events in {result.duration:.2f} s").wait_for()
+    page.get_by_role("button", name="Play it 200 times").click()
+    page.get_by_text(re.compile("Pocketed|No ball")).wait_for()
+    page.get_by_label("Format").select_option("JSON")
+    written = json.loads(page.get_by_label("Text", exact=True).input_value())
+    assert written["shot"] == {"v": 3, "phi": 265, "theta": 5, "a": 0, "b": 4}
+    page.get_by_label("Format").select_option("Python")
+    names: dict = {}
+    exec(page.get_by_label("Text", exact=True).input_value(), names)
+    assert names["result"].final == result.final
+    page.get_by_role("button", name="Play the shot").click()
+    page.wait_for_function("() => document.querySelector('output.time').textContent !== ''")
+    page.get_by_role("button", name="Back to the position").click()
+    page.get_by_label("Text", exact=True).fill("3:x")
+    page.get_by_role("button", name="Set up from the notation").click()
+    page.get_by_text("is no ball").wait_for()
+
+
+def test_a_house_bot_accepts_and_plays(new_page, own_server_with_bot, watched):
+    page = new_page(reduced_motion="reduce")
+    page.goto(f"{own_server_with_bot.url}/#/play")
+    page.get_by_label("New here? Choose a name").fill("guest of the house")
+    page.get_by_role("button", name="Begin").click()
+    page.get_by_role("button", name="Play random").click(timeout=PATIENCE)
+    page.get_by_role("region", name="Your turn").wait_for(timeout=PATIENCE)
+    page.get_by_role("button", name="Concede").click()
+    page.get_by_role("button", name="Really concede?").click()
+    page.locator(".result", has_text="random wins: concession").wait_for(timeout=PATIENCE)
