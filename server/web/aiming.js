@@ -25,6 +25,9 @@ export class Aiming {
     this.balls = {};
     /** @type {Trace | null} */
     this.path = null;
+    /** Whether the preview is that of the present aim; whether a stroke waits for it. */
+    this.settled = false;
+    this.waiting = false;
     this.form = new ShotForm(() => this.changed());
     this.preview = new Preview((answer, elevation, problem) => this.previewed(answer, elevation, problem));
     this.lowest = checkbox("as low as the cue can be", true, () => this.changed());
@@ -147,6 +150,7 @@ export class Aiming {
   changed() {
     if (!this.canShoot) return;
     this.path = null;
+    this.settled = this.waiting = false;
     this.coordinates.forEach((field, axis) => { field.value = String(this.balls[0][axis]); });
     fill(this.problem, this.legalPlace ? "" : "The cue ball may not lie there.");
     /** @type {HTMLButtonElement} */ (this.shoot).disabled = !this.legalPlace;
@@ -156,6 +160,7 @@ export class Aiming {
 
   previewed(answer, elevation, problem) {
     if (!this.view) return;
+    this.settled = true;
     fill(this.problem, problem);
     if (elevation !== null && this.lowest.input.checked) {
       this.form.shot = { ...this.form.shot, theta: elevation };
@@ -163,6 +168,7 @@ export class Aiming {
     }
     this.path = answer && answer.events ? new Trace(this.view.table, this.balls, answer.events, answer.duration) : null;
     this.stage.redraw();
+    if (this.waiting) this.send();
   }
 
   /** @param {import("./table_picture.js").Scene} scene */
@@ -182,7 +188,10 @@ export class Aiming {
     }
   }
 
+  /** Shoot, once the server has said how far the cue must be raised for the aim as it is now. */
   send() {
+    this.waiting = this.lowest.input.checked && !this.settled;
+    if (this.waiting) return;
     const called = this.safety.input.checked ? "safety" : { ball: Number(this.ball.value), pocket: Number(this.pocket.value) };
     this.act({
       shot: this.form.shot,

@@ -10,8 +10,8 @@
 /** Summation step, s: at the fastest spin of a shot a third of a turn. */
 const STEP = 1 / 120;
 
-/** Number up, stripe level. @type {Quaternion} */
-export const UPRIGHT = [Math.SQRT1_2, 0, -Math.SQRT1_2, 0];
+/** Number up, to be read where the table lies with its head string on the left. @type {Quaternion} */
+export const UPRIGHT = [0, Math.SQRT1_2, 0, Math.SQRT1_2];
 
 export class Orientations {
   /**
