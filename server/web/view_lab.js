@@ -214,7 +214,9 @@ export class LabView {
     this.stage.redraw();
   }
 
+  /** Write the position and the shot, unless somebody is writing there. */
   writeText() {
+    if (document.activeElement === this.text) return;
     this.text.value = WRITERS[this.format.value](this.balls, this.form.shot);
   }
 
