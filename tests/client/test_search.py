@@ -8,6 +8,7 @@ import pytest
 import client
 import physics
 from client.agents.search import SearchAgent
+from client.agents.search.breaks import best_break
 from client.agents.search.budget import Budget, Pace, allowance
 from client.agents.search.clusters import as_they_come, representatives
 from client.agents.search.options import Options
@@ -106,6 +107,14 @@ def test_the_break_is_the_studied_one():
     action, _ = choice(balls, phase=Phase.BREAK, groups=None, cue_ball_in_hand=CueBallArea.KITCHEN)
     assert action.call is None
     assert played(balls, action).facts.struck_first
+
+
+def test_a_break_makes_way_for_a_ball_in_its_place():
+    """A game may begin anywhere: here a ball lies where the studied break puts the cue ball."""
+    place = best_break(1.0).place
+    balls = {5: place, 1: (0.558, 0.559), 8: (0.4, 0.3)}
+    action, _ = choice(balls, phase=Phase.BREAK, groups=None, cue_ball_in_hand=CueBallArea.KITCHEN)
+    assert action.cue_ball != place
 
 
 def test_decisions_go_to_the_better_table():

@@ -77,9 +77,9 @@ class SearchAgent(Agent):
 
     def _break(self, game: Game) -> Action:
         """The studied break."""
-        best = breaks.best_break(self._noise)
-        state = game.state.moved(0, best.place)
-        return Action(shot=best.stroke(self._rules.table, state), cue_ball=best.place)
+        best, table = breaks.best_break(self._noise), self._rules.table
+        place = best.places(table, game.state)[0]
+        return Action(shot=best.stroke(table, game.state.moved(0, place)), cue_ball=place)
 
     def _decision(self, game: Game, view: View) -> Action:
         """The decision after which this player stands best."""

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from client.geometry import Point, azimuth
+from client.geometry import Point, azimuth, is_free, lattice
 from physics import Shot, Table, TableState, min_elevation
 
 
@@ -27,10 +27,16 @@ class Break:
         """Where the cue ball is put."""
         return self.x, self.y
 
+    def places(self, table: Table, state: TableState) -> list[Point]:
+        """Where it can be played from: its own place, and if a ball lies there, others in the kitchen."""
+        others = lattice(table, state, 7, 5, kitchen=True)
+        return [self.place, *others] if is_free(table, state, self.place, kitchen=True) else others
+
     def stroke(self, table: Table, state: TableState) -> Shot:
         """The stroke on this rack; `state` has the cue ball in its place."""
         foot_x, foot_y = table.foot_spot
-        phi = azimuth(self.place, (foot_x + 1e-3 * self.aim, foot_y))
+        place = state.position(0) or self.place
+        phi = azimuth(place, (foot_x + 1e-3 * self.aim, foot_y))
         theta = min_elevation(table, state, phi, self.a, self.b)
         return Shot(min(self.v, table.v_max), phi, theta + 0.5, self.a, self.b)
 

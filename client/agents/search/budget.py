@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from client.agents.search.options import LEAST_SECONDS, Options
 
-GUESS = 80_000.0
+GUESS = 30_000.0
 """Simulated shots a second, all work around them included, before anything was measured."""
 SMOOTHING = 0.3
 """Weight of the latest stroke in the measured speed."""

@@ -71,7 +71,8 @@ class Evaluator:
     Args:
         table: the game's. values: of positions. noise: the level. chance: where the noise comes from.
         simulate: the physics, counted. budget: of the stroke.
-        kitchen: whether the cue ball is in hand behind the head string on the first stroke.
+
+    `kitchen` of its methods says whether the cue ball is in hand behind the head string (R38).
     """
 
     def __init__(

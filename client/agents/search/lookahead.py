@@ -65,7 +65,7 @@ def _clusters(
 ) -> tuple[Integers, Integers, Integers, NDArray[np.bool_]]:
     """Of each cluster: its stroke, its size, the row that stands for it, whether the shooter goes on."""
     found: list[tuple[int, int, int, bool]] = []
-    to_play = ~outcomes.over & ~(outcomes.fouled & ~outcomes.continues)
+    to_play = ~outcomes.over & ~outcomes.fouled
     for stroke in range(len(outcomes.worth)):
         for mine in (True, False):
             copies = np.flatnonzero(to_play[stroke] & (outcomes.continues[stroke] == mine))

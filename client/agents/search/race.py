@@ -135,10 +135,6 @@ class Race:
         worth: Floats = np.maximum(chance * made + (1.0 - chance) * missed, safe)
         return worth
 
-    def safe(self, needs: Floats, other: Floats) -> Floats:
-        """What a typical safety is worth to the shooter."""
-        return looked_up(self._safe, needs, other)
-
 
 def looked_up(table: Floats, row: Floats, column: Floats) -> Floats:
     """A table's values between its entries, bilinear; beyond its edges the edge's."""

@@ -47,8 +47,8 @@ class Sight:
         self.sigma = float(np.radians(SIGMA_PHI) * max(noise, LEAST_NOISE))
 
     def survey(self, positions: Floats, hand: NDArray[np.bool_], kitchen: float = 0.0) -> Floats:
-        """(n, 2, 5): what each table offers to either group; the columns are named in the kernels."""
-        found = np.empty((len(positions), 2, 5))
+        """(n, 2, 4): what each table offers to either group; the columns are named in the kernels."""
+        found = np.empty((len(positions), 2, 4))
         self._kernels.survey(self._row, np.ascontiguousarray(positions), self.sigma, hand, kitchen, found)
         return found
 

@@ -11,7 +11,7 @@ from client.agents.search.shots import Floats, Groups, Tables
 from client.agents.search.sight import Sight
 from referee.rules.verdicts import OPEN, Verdicts
 
-CHANCE, SECOND, SEEN, LAYOUT, PLACED = range(5)
+CHANCE, SEEN, LAYOUT, PLACED = range(4)
 """Columns of a survey."""
 
 

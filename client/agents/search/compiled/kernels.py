@@ -26,11 +26,9 @@ PLACED_REACH = 0.25
 BLOCKED = 0.8
 """Chance that a ball no pocket is open for will be made when its turn comes: others move by then, or it is banked."""
 
-NOT_SEEN, FOUND = 0.0, 1.0
-CHANCE, SECOND, SEEN, LAYOUT, PLACED = 0, 1, 2, 3, 4
-"""What `survey` tells of a group: chance of its best and second best pot, whether any of its balls can be struck
-straight, how hard its layout is (minus the sum of the logarithms of its balls' chances), chance with the cue ball in
-hand."""
+CHANCE, SEEN, LAYOUT, PLACED = 0, 1, 2, 3
+"""What `survey` tells of a group: chance of its best pot, 1 if any of its balls can be struck straight, how hard
+its layout is (minus the sum of the logarithms of its balls' chances), chance with the cue ball in hand."""
 
 compiled = numba.njit(error_model="numpy", nogil=True, cache=bool(numba.config.CACHE_DIR))
 inner = numba.njit(error_model="numpy", nogil=True)
@@ -168,7 +166,7 @@ def placed(table, row, ball, ux, uy, low, high, sigma, kitchen):
 @inner
 def survey_ball(table, row, ball, sigma, hand, kitchen, out):
     """Add one ball to what is known of its group: best pots, difficulty."""
-    own, easy, c = 0.0, 0.0, out
+    own, easy = 0.0, 0.0
     gain = USUAL_REACH / (2.0 * table[RADIUS] * USUAL_CUT)
     for pocket in range(6):
         ux, uy, _, low, high = to_pocket(table, row, ball, pocket, 0)
@@ -176,18 +174,14 @@ def survey_ball(table, row, ball, sigma, hand, kitchen, out):
             continue
         easy = max(easy, normal_between(low / gain, high / gain, sigma))
         if hand:
-            c[PLACED] = max(c[PLACED], placed(table, row, ball, ux, uy, low, high, sigma, kitchen))
+            out[PLACED] = max(out[PLACED], placed(table, row, ball, ux, uy, low, high, sigma, kitchen))
         else:
             chance, _, _ = straight(table, row, ball, ux, uy, low, high, sigma)
             own = max(own, chance)
-    if own > c[CHANCE]:
-        c[SECOND] = c[CHANCE]
-        c[CHANCE] = own
-    else:
-        c[SECOND] = max(c[SECOND], own)
-    c[LAYOUT] -= math.log(max(easy, BLOCKED))
-    if not hand and c[SEEN] == NOT_SEEN and (own > 0.0 or is_seen(table, row, ball)):
-        c[SEEN] = FOUND
+    out[CHANCE] = max(out[CHANCE], own)
+    out[LAYOUT] -= math.log(max(easy, BLOCKED))
+    if not hand and out[SEEN] == 0.0 and (own > 0.0 or is_seen(table, row, ball)):
+        out[SEEN] = 1.0
 
 
 @compiled
@@ -197,7 +191,7 @@ def survey(table, positions, sigma, hand, kitchen, out):
     Args:
         sigma: rad, of the cue's direction.
         hand: (n,) whether the cue ball is in hand. kitchen: the least y it may have then.
-        out: (n, 2, 5), solids and stripes; see CHANCE and its fellows. The 8 counts for a group that has no other ball.
+        out: (n, 2, 4), solids and stripes; see CHANCE and its fellows. The 8 counts for a group that has no other ball.
     """
     out[:] = 0.0
     for n in range(positions.shape[0]):
