@@ -14,11 +14,13 @@ from referee.wire import (
     ClientSeedRequest,
     DecisionRequest,
     ForfeitRequest,
+    InvitationRequest,
     MatchRequest,
     MinElevationRequest,
     Problem,
     ShotRequest,
     SimulateRequest,
+    TokenRequest,
 )
 from server.routes.describe import TOKEN_SCHEME
 
@@ -30,10 +32,12 @@ REQUESTS: tuple[type[BaseModel], ...] = (
     ClientSeedRequest,
     DecisionRequest,
     ForfeitRequest,
+    InvitationRequest,
     MatchRequest,
     MinElevationRequest,
     ShotRequest,
     SimulateRequest,
+    TokenRequest,
 )
 
 

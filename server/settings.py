@@ -13,7 +13,7 @@ ENVIRONMENT_PREFIX = "POOLIAD_"
 SHORTEST_ORGANISER_TOKEN = 32
 """Characters. 32 hexadecimal digits are 128 bits, the least that no one guesses."""
 
-MAY_BE_ZERO = frozenset({"lag_turn", "lag_game"})
+MAY_BE_ZERO = frozenset({"lag_turn", "lag_game", "token_seconds"})
 """Zero turns these off; the others need a number above it."""
 
 
@@ -30,6 +30,9 @@ class Settings:
 
     database: str = "sqlite:///pooliad.db"
     organiser_digest: str | None = None
+    registration: str = "open"
+    public_reads: bool = True
+    token_seconds: float = 0.0
     fetch_grace: float = 5.0
     no_show_seconds: float = 60.0
     lag_turn: float = 0.05

@@ -45,6 +45,7 @@ from referee.wire.shots import (
 from referee.wire.streams import ManyEvent, StreamClocks, StreamConnections, StreamResult, of_many
 from referee.wire.strokes import StrokeDetail, StrokeView
 from referee.wire.terms import BudgetView, ClockTerms, ClockView, NoiseTerms, NoiseView
+from referee.wire.tokens import InvitationRequest, Invitations, TokenList, TokenRequest, TokenSecret, TokenView
 from referee.wire.turns import TURN_MESSAGE, GameOver, MatchOver, SeedWanted, Turn, TurnMessage
 from referee.wire.view import Allowed, Area, GameTerms, View
 
@@ -78,6 +79,8 @@ __all__ = [
     "GameOver",
     "GameSummary",
     "GameTerms",
+    "InvitationRequest",
+    "Invitations",
     "KeyList",
     "KeyView",
     "ManyEvent",
@@ -112,6 +115,10 @@ __all__ = [
     "StrokeDetail",
     "StrokeView",
     "SubmittedAction",
+    "TokenList",
+    "TokenRequest",
+    "TokenSecret",
+    "TokenView",
     "Turn",
     "TurnMessage",
     "View",

@@ -16,6 +16,10 @@ class AgentRequest(Request):
     model_config = ConfigDict(json_schema_extra={"examples": [{"name": "my-first-agent"}]})
 
     name: AgentName
+    invitation: Annotated[
+        str | None,
+        Field(max_length=200, description="An invitation's code, where registration is by invitation."),
+    ] = None
 
 
 class AgentView(Message):

@@ -4,7 +4,7 @@ from typing import Final
 
 from fastapi import APIRouter
 
-from server.routes import agents, games, health, keys, matches, page, physics, streams, turns
+from server.routes import agents, games, health, keys, matches, page, physics, streams, tokens, turns
 
 ROUTERS: Final[tuple[APIRouter, ...]] = (
     agents.router,
@@ -14,6 +14,7 @@ ROUTERS: Final[tuple[APIRouter, ...]] = (
     streams.router,
     physics.router,
     keys.router,
+    tokens.router,
     health.router,
     page.router,
 )

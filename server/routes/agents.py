@@ -6,7 +6,18 @@ from fastapi import APIRouter, Query, Response
 
 from referee.wire import AgentList, AgentRequest, AgentToken, AgentView
 from server.errors import Forbidden, Invalid, NameTaken, Unauthorized, invalid_field
-from server.routes.dependencies import ANYBODY, Authenticated, Body, ContentType, Cursor, Limit, Sent, Server, respond
+from server.routes.dependencies import (
+    ANYBODY,
+    Authenticated,
+    Body,
+    ContentType,
+    Limit,
+    Place,
+    Sent,
+    Server,
+    Visitor,
+    respond,
+)
 from server.routes.describe import OWNED, describe
 from server.services import agents
 from server.services.commands import parse_body
@@ -16,23 +27,23 @@ router = APIRouter(prefix="/v1/agents", tags=["agents"])
 
 @router.post(
     "",
-    **describe(NameTaken, body=AgentRequest, success={201: AgentToken}, token=False),
+    **describe(NameTaken, Unauthorized, Forbidden, body=AgentRequest, success={201: AgentToken}, token=False),
     summary="Register an agent",
 )
-def register(context: Server, body: Body, content_type: ContentType = None) -> Response:
+def register(context: Server, visitor: Visitor, body: Body, content_type: ContentType = None) -> Response:
     """The answer holds the agent's token, which is shown this once."""
-    return respond(agents.register(context, parse_body(body, content_type, AgentRequest)))
+    return respond(agents.register(context, parse_body(body, content_type, AgentRequest), visitor))
 
 
 @router.get("", **describe(Invalid, Unauthorized, token=False), dependencies=[ANYBODY], summary="All agents")
 def listing(
     context: Server,
-    cursor: Cursor,
+    after: Place,
     limit: Limit,
     house: Annotated[str | None, Query(description="true: only house bots; false: all but them")] = None,
 ) -> AgentList:
     """Agents in order of registration."""
-    return agents.listing(context, _flag("house", house), cursor, limit)
+    return agents.listing(context, _flag("house", house), after, limit)
 
 
 @router.get("/me", **describe(Forbidden), summary="The calling agent")

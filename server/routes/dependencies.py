@@ -30,17 +30,30 @@ Token = Annotated[str | None, Depends(_token)]
 
 def _caller(context: Server, token: Token) -> Caller:
     with context.database.reading() as connection:
-        return identify(connection, token, context.settings.organiser_digest)
+        return identify(connection, token, context.settings.organiser_digest, context.time.now())
+
+
+def _simulating(caller: Annotated[Caller, Depends(_caller)]) -> Caller:
+    caller.require_player()
+    return caller
+
+
+def _visitor(context: Server, token: Token) -> Caller | None:
+    return None if token is None else _caller(context, token)
 
 
 def _reader(context: Server, token: Token) -> Caller | None:
-    return None if token is None else _caller(context, token)
+    return None if token is None and context.settings.public_reads else _caller(context, token)
 
 
 Authenticated = Annotated[Caller, Depends(_caller)]
 """Somebody with a valid token; 401 for anybody else."""
+Simulating = Annotated[Caller, Depends(_simulating)]
+"""Somebody who plays or organises: may use the physics."""
+Visitor = Annotated[Caller | None, Depends(_visitor)]
+"""Somebody who needs no token; one that is sent must be valid all the same."""
 Reader = Annotated[Caller | None, Depends(_reader)]
-"""Whoever reads something public; a token, when one is sent, must be valid all the same."""
+"""Whoever reads something public: anybody, unless the settings ask for a token, whatever its scope."""
 ANYBODY = Depends(_reader)
 """The same for an endpoint that shows everybody the same."""
 
@@ -101,6 +114,12 @@ def _cursor(
     return pages.cursor(cursor)
 
 
+def _place(
+    cursor: Annotated[str | None, Query(description="`next_cursor` of the page before")] = None,
+) -> pages.Place | None:
+    return pages.place(cursor)
+
+
 def _limit(
     limit: Annotated[str | None, Query(description="rows a page, 1 to 200; 50 unless told")] = None,
 ) -> int:
@@ -108,6 +127,9 @@ def _limit(
 
 
 Cursor = Annotated[int, Depends(_cursor)]
+"""Of a list whose rows are numbered."""
+Place = Annotated[pages.Place | None, Depends(_place)]
+"""Of a list whose rows are in the order they were made."""
 Limit = Annotated[int, Depends(_limit)]
 
 

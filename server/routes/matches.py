@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query, Response
 
 from referee.wire import AcceptRequest, ClientSeedRequest, MatchList, MatchRequest, MatchView
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
-from server.routes.dependencies import ANYBODY, Cursor, Limit, Sent, Server, respond
+from server.routes.dependencies import ANYBODY, Limit, Place, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import matches, openings
 
@@ -31,13 +31,13 @@ def create(context: Server, command: Sent) -> Response:
 )
 def listing(
     context: Server,
-    cursor: Cursor,
+    after: Place,
     limit: Limit,
     agent: Annotated[str | None, Query(description="only this agent's")] = None,
     status: Annotated[str | None, Query(description="challenged, running, finished or aborted")] = None,
 ) -> MatchList:
     """An agent finds the challenges it may accept with `?agent=ID&status=challenged`."""
-    return matches.listing(context, agent, status, cursor, limit)
+    return matches.listing(context, agent, status, after, limit)
 
 
 @router.get("/{match_id}", **describe(NotFound, Unauthorized, token=False), dependencies=[ANYBODY], summary="One match")

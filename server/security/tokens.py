@@ -1,4 +1,4 @@
-"""Bearer tokens: 256 random bits behind a prefix that says whose they are; only their hash is stored."""
+"""Bearer tokens: 256 random bits behind a prefix that says what they are for; only their hash is stored."""
 
 import base64
 import hashlib
@@ -6,6 +6,9 @@ import hmac
 import secrets
 
 AGENT_PREFIX = "pool_agt_"
+STAFF_PREFIX = "pool_stf_"
+"""Tokens of organisers, administrators and readers."""
+INVITATION_PREFIX = "pool_inv_"
 TOKEN_BYTES = 32
 
 
@@ -14,13 +17,18 @@ def new_token() -> str:
     return AGENT_PREFIX + secrets.token_urlsafe(TOKEN_BYTES)
 
 
-def derived_token(presented: str, salt: str) -> str:
+def new_salt() -> str:
+    """What `derived_token` starts from: 256 random bits."""
+    return secrets.token_hex(TOKEN_BYTES)
+
+
+def derived_token(presented: str, salt: str, prefix: str = AGENT_PREFIX) -> str:
     """The token that follows from the one presented and a random salt, as secret as both together.
 
-    A rotation that is sent again gets the same token again, although neither token is stored.
+    A request that is sent again gets the same token again, although neither token is stored.
     """
     secret = hmac.digest(presented.encode("utf-8", "surrogateescape"), salt.encode(), "sha256")
-    return AGENT_PREFIX + base64.urlsafe_b64encode(secret).decode().rstrip("=")
+    return prefix + base64.urlsafe_b64encode(secret).decode().rstrip("=")
 
 
 def digest(token: str) -> str:

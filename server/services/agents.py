@@ -5,22 +5,26 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, insert, select, update
 
+from referee.play import nanoseconds
 from referee.wire import AgentList, AgentRequest, AgentToken, AgentView
-from server.errors import NameTaken, NotFound
-from server.security.callers import Caller
-from server.security.tokens import derived_token, digest, new_token
+from server.errors import Forbidden, NameTaken, NotFound
+from server.security.callers import Caller, Scope
+from server.security.tokens import derived_token, digest, new_salt, new_token
+from server.services import pages
 from server.services.commands import Answer, Command, once
-from server.services.context import Context
+from server.services.context import Context, Writing
 from server.services.time import date_time
+from server.services.tokens import use_invitation
 from server.store.locks import only_one
 from server.store.tables import agents, tokens
 
 
-def register(context: Context, request: AgentRequest) -> Answer:
-    """A new agent with its first token; raises `NameTaken`."""
-    now = context.time.now()
+def register(context: Context, request: AgentRequest, caller: Caller | None = None) -> Answer:
+    """A new agent with its first token; raises `NameTaken`, and `Forbidden` where not everybody may register."""
     agent_id = f"agent_{secrets.token_hex(8)}"
-    with context.database.writing() as connection:
+    with context.writing() as writing:
+        connection, now = writing.connection, writing.now
+        _require_welcome(writing, request, caller, agent_id)
         only_one(connection, f"name {request.name}")
         if connection.execute(select(agents.c.id).where(agents.c.name == request.name)).first():
             raise NameTaken(
@@ -31,9 +35,20 @@ def register(context: Context, request: AgentRequest) -> Answer:
             )
         connection.execute(insert(agents).values(id=agent_id, name=request.name, house=False, created_at=now))
         token = new_token()
-        _issue(connection, agent_id, token, now)
+        _issue(writing, agent_id, token)
         agent = _agent(connection, agent_id)
     return Answer.of(201, AgentToken(agent=_view(agent), token=token))
+
+
+def _require_welcome(writing: Writing, request: AgentRequest, caller: Caller | None, agent_id: str) -> None:
+    """Organisers register whom they like; whether others may is a setting."""
+    if caller is not None and caller.is_organiser:
+        return
+    match writing.context.settings.registration:
+        case "invited":
+            use_invitation(writing.connection, request.invitation, agent_id, writing.now)
+        case "closed":
+            raise Forbidden("registration is closed; an organiser registers agents")
 
 
 def me(context: Context, caller: Caller) -> AgentView:
@@ -42,15 +57,15 @@ def me(context: Context, caller: Caller) -> AgentView:
         return _view(_agent(connection, caller.require_agent()))
 
 
-def listing(context: Context, house: bool | None, cursor: int, limit: int) -> AgentList:
-    """Agents in order of registration, from row `cursor` on; house bots alone, or all but them, when asked for."""
-    query = select(agents).order_by(agents.c.created_at, agents.c.id).offset(cursor).limit(limit + 1)
+def listing(context: Context, house: bool | None, after: pages.Place | None, limit: int) -> AgentList:
+    """Agents in order of registration, those after a place; house bots alone, or all but them, when asked for."""
+    query = select(agents)
     if house is not None:
         query = query.where(agents.c.house.is_(house))
     with context.database.reading() as connection:
-        rows = connection.execute(query).all()
-    more = str(cursor + limit) if len(rows) > limit else None
-    return AgentList(agents=tuple(_view(row) for row in rows[:limit]), next_cursor=more)
+        rows = connection.execute(pages.oldest_first(query, agents, after, limit)).all()
+    page, more = pages.cut(rows, limit)
+    return AgentList(agents=tuple(_view(row) for row in page), next_cursor=more)
 
 
 def rotate(context: Context, agent_id: str, command: Command) -> Answer:
@@ -59,32 +74,32 @@ def rotate(context: Context, agent_id: str, command: Command) -> Answer:
     What is kept for a repetition is a salt, from which only the token presented makes the new one. An agent
     that loses the answer to its own rotation has a void token left, and asks the organiser for another.
     """
-    with context.database.writing() as connection:
-        agent = _owned(connection, agent_id, command.caller)
-        salt = once(connection, command, lambda: _rotated(connection, agent_id, command)).body.decode()
+    with context.writing() as writing:
+        agent = _owned(writing.connection, agent_id, command.caller)
+        salt = once(writing.connection, command, lambda: _rotated(writing, agent_id, command)).body.decode()
     return Answer.of(200, AgentToken(agent=_view(agent), token=derived_token(command.caller.token, salt)))
 
 
-def renewed_token(connection: Connection, agent_id: str, now: int) -> str:
+def renewed_token(writing: Writing, agent_id: str) -> str:
     """A new token for an agent; all others of its are void."""
     token = new_token()
-    _revoke(connection, agent_id, now)
-    _issue(connection, agent_id, token, now)
+    _revoke(writing, agent_id)
+    _issue(writing, agent_id, token)
     return token
 
 
-def _rotated(connection: Connection, agent_id: str, command: Command) -> Answer:
-    salt = secrets.token_hex(32)
-    _revoke(connection, agent_id, command.arrived)
-    _issue(connection, agent_id, derived_token(command.caller.token, salt), command.arrived)
+def _rotated(writing: Writing, agent_id: str, command: Command) -> Answer:
+    salt = new_salt()
+    _revoke(writing, agent_id)
+    _issue(writing, agent_id, derived_token(command.caller.token, salt))
     return Answer(200, salt.encode())
 
 
 def revoke(context: Context, agent_id: str, caller: Caller) -> None:
     """Void the agent's tokens; only the organiser can give it another."""
-    with context.database.writing() as connection:
-        _owned(connection, agent_id, caller)
-        _revoke(connection, agent_id, context.time.now())
+    with context.writing() as writing:
+        _owned(writing.connection, agent_id, caller)
+        _revoke(writing, agent_id)
 
 
 def _owned(connection: Connection, agent_id: str, caller: Caller) -> Row[Any]:
@@ -100,13 +115,22 @@ def _agent(connection: Connection, agent_id: str) -> Row[Any]:
     return row
 
 
-def _issue(connection: Connection, agent_id: str, token: str, now: int) -> None:
-    connection.execute(insert(tokens).values(digest=digest(token), agent_id=agent_id, created_at=now))
+def _issue(writing: Writing, agent_id: str, token: str) -> None:
+    lifetime = nanoseconds(writing.context.settings.token_seconds)
+    row = {
+        "id": f"token_{secrets.token_hex(8)}",
+        "digest": digest(token),
+        "agent_id": agent_id,
+        "scopes": Scope.AGENT,
+        "created_at": writing.now,
+        "expires_at": writing.now + lifetime if lifetime else None,
+    }
+    writing.connection.execute(insert(tokens).values(row))
 
 
-def _revoke(connection: Connection, agent_id: str, now: int) -> None:
+def _revoke(writing: Writing, agent_id: str) -> None:
     valid = (tokens.c.agent_id == agent_id) & (tokens.c.revoked_at.is_(None))
-    connection.execute(update(tokens).where(valid).values(revoked_at=now))
+    writing.connection.execute(update(tokens).where(valid).values(revoked_at=writing.now))
 
 
 def _view(row: Row[Any]) -> AgentView:

@@ -87,7 +87,7 @@ def take(context: Context, agent_id: str, holder: str) -> str | None:
         writing.connection.execute(delete(house).where(house.c.agent_id == agent_id))
         entry = {"agent_id": agent_id, "holder": holder, "until": writing.now + nanoseconds(LEASE)}
         writing.connection.execute(insert(house).values(entry))
-        return renewed_token(writing.connection, agent_id, writing.now)
+        return renewed_token(writing, agent_id)
 
 
 def renew(context: Context, agent_id: str, holder: str) -> bool:

@@ -12,8 +12,8 @@ from referee.play import nanoseconds
 from referee.record import this_engine
 from referee.wire import AcceptRequest, MatchList, MatchRequest, MatchStatus, MatchView
 from server.errors import Forbidden, WrongStatus, invalid_field, invalid_physics
-from server.security.callers import Caller
-from server.services import draws, games, house, match_views, notices
+from server.security.callers import Caller, Scope
+from server.services import draws, games, house, match_views, notices, pages
 from server.services.commands import Answer, Command, once, parse
 from server.services.context import Context, Writing
 from server.services.live import ABORTED, RUNNING, find_match, hold_match
@@ -59,9 +59,11 @@ def one(context: Context, match_id: str) -> MatchView:
         return match_views.view(connection, find_match(connection, match_id))
 
 
-def listing(context: Context, agent_id: str | None, status: str | None, cursor: int, limit: int) -> MatchList:
+def listing(
+    context: Context, agent_id: str | None, status: str | None, after: pages.Place | None, limit: int
+) -> MatchList:
     """Matches, the newest first, of one agent or of one status when asked for; raises `Invalid`."""
-    query = select(matches).order_by(matches.c.created_at.desc(), matches.c.id)
+    query = select(matches)
     if agent_id is not None:
         query = query.where(or_(matches.c.seat_0 == agent_id, matches.c.seat_1 == agent_id))
     if status is not None:
@@ -69,9 +71,9 @@ def listing(context: Context, agent_id: str | None, status: str | None, cursor: 
             raise invalid_field("status", status, f"one of {', '.join(STATUSES)}")
         query = query.where(matches.c.status == status)
     with context.database.reading() as connection:
-        rows = connection.execute(query.offset(cursor).limit(limit + 1)).all()
-        views = tuple(match_views.view(connection, row) for row in rows[:limit])
-    return MatchList(matches=views, next_cursor=str(cursor + limit) if len(rows) > limit else None)
+        rows = connection.execute(pages.newest_first(query, matches, after, limit)).all()
+        page, more = pages.cut(rows, limit)
+        return MatchList(matches=tuple(match_views.view(connection, row) for row in page), next_cursor=more)
 
 
 def abort_foreign(context: Context) -> None:
@@ -103,7 +105,7 @@ def _created(writing: Writing, command: Command) -> Answer:
 def _require_right(request: MatchRequest, caller: Caller) -> None:
     if caller.is_organiser:
         return
-    if caller.id not in request.agents:
+    if Scope.AGENT not in caller.scopes or caller.id not in request.agents:
         raise Forbidden("only the organiser makes matches of others; an agent challenges for itself")
     organisers = (("seed", request.seed), ("racks.seed", request.racks.seed), ("first_breaker", request.first_breaker))
     for field, value in organisers:

@@ -1,23 +1,85 @@
-"""Lists in pages: a cursor is the place after the last row given."""
+"""Lists in pages. A cursor names the last row given, so that rows that come or go meanwhile move no other."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sqlalchemy import Row, Select, Table, tuple_
 
 from server.errors import invalid_field
 
 PAGE = 50
 LONGEST_PAGE = 200
-LONGEST_NUMBER = 15
+LONGEST_NUMBER, LONGEST_TIME = 15, 19
 """Digits."""
+LONGEST_ID = 64
+CURSOR_ALLOWED = "the next_cursor of the page before, as it came"
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A row's place in a list: when it was made, and its id among those of the same time."""
+
+    created_at: int
+    id: str
+
+    @classmethod
+    def of(cls, row: Row[Any]) -> "Place":
+        """The place of a row."""
+        return cls(row.created_at, row.id)
+
+    def __str__(self) -> str:
+        return f"{self.created_at}.{self.id}"
+
+
+def place(text: str | None) -> Place | None:
+    """The place a cursor stands for, None for the start (no cursor, or 0); raises `Invalid`."""
+    if text is None or text == "0":
+        return None
+    created_at, _, row_id = text.partition(".")
+    if not (
+        _is_number(created_at, LONGEST_TIME)
+        and 1 <= len(row_id) <= LONGEST_ID
+        and row_id.isascii()
+        and row_id.isprintable()
+    ):
+        raise invalid_field("cursor", text, CURSOR_ALLOWED)
+    return Place(int(created_at), row_id)
+
+
+def oldest_first(query: Select[Any], table: Table, after: Place | None, limit: int) -> Select[Any]:
+    """The query's rows after a place, in the order they were made, one more than the page holds."""
+    if after is not None:
+        query = query.where(_key(table) > (after.created_at, after.id))
+    return query.order_by(table.c.created_at, table.c.id).limit(limit + 1)
+
+
+def newest_first(query: Select[Any], table: Table, after: Place | None, limit: int) -> Select[Any]:
+    """The query's rows after a place, the newest first, one more than the page holds."""
+    if after is not None:
+        query = query.where(_key(table) < (after.created_at, after.id))
+    return query.order_by(table.c.created_at.desc(), table.c.id.desc()).limit(limit + 1)
+
+
+def cut(rows: Sequence[Row[Any]], limit: int) -> tuple[Sequence[Row[Any]], str | None]:
+    """A page of the rows, and the cursor of the next one; None when there is nothing more."""
+    return rows[:limit], str(Place.of(rows[limit - 1])) if len(rows) > limit else None
+
+
+def _key(table: Table) -> Any:
+    return tuple_(table.c.created_at, table.c.id)
 
 
 def cursor(text: str | None) -> int:
-    """The row number a cursor stands for, 0 for none; raises `Invalid`."""
-    return number("cursor", text, "the next_cursor of the page before, as it came")
+    """The number a cursor of a numbered list stands for, 0 for none; raises `Invalid`."""
+    return number("cursor", text, CURSOR_ALLOWED)
 
 
 def number(name: str, text: str | None, allowed: str) -> int:
     """A whole number from the address, 0 when it is not given; raises `Invalid`."""
     if text is None:
         return 0
-    if not (text.isascii() and text.isdigit() and len(text) <= LONGEST_NUMBER):
+    if not _is_number(text, LONGEST_NUMBER):
         raise invalid_field(name, text, allowed)
     return int(text)
 
@@ -29,3 +91,7 @@ def limit(text: str | None) -> int:
     if not (text.isascii() and text.isdigit() and len(text) <= 3 and 1 <= int(text) <= LONGEST_PAGE):
         raise invalid_field("limit", text, f"1 to {LONGEST_PAGE}")
     return int(text)
+
+
+def _is_number(text: str, longest: int) -> bool:
+    return text.isascii() and text.isdigit() and len(text) <= longest and int(text) < 2**63

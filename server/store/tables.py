@@ -57,11 +57,27 @@ house = Table(
 tokens = Table(
     "tokens",
     metadata,
-    Column("digest", String(64), primary_key=True),
-    Column("agent_id", Identifier, ForeignKey("agents.id"), nullable=False, index=True),
+    Column("id", Identifier, primary_key=True),
+    Column("digest", String(64), nullable=False, unique=True),
+    Column("agent_id", Identifier, ForeignKey("agents.id"), index=True),
+    Column("name", String(64)),
+    Column("scopes", String(64), nullable=False),
     Column("created_at", BigInteger, nullable=False),
+    Column("expires_at", BigInteger),
     Column("revoked_at", BigInteger),
 )
+"""`digest`: SHA-256 (hex) of the token. `agent_id`: whose it is, null for those who do not play."""
+
+invitations = Table(
+    "invitations",
+    metadata,
+    Column("digest", String(64), primary_key=True),
+    Column("created_at", BigInteger, nullable=False),
+    Column("expires_at", BigInteger),
+    Column("used_at", BigInteger),
+    Column("agent_id", Identifier),
+)
+"""Codes to register with, each for one agent."""
 
 matches = Table(
     "matches",

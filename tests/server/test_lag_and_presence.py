@@ -224,9 +224,9 @@ def test_a_batch_beyond_the_budget_is_refused_whole(stage):
 def test_nobody_spends_the_budget_of_another(stage):
     now = stage()
     seats, other = now.game("ann", "bob"), now.game("cat", "dan")
-    for caller in (other.ids[0], ORGANISER):
+    for caller in (Caller(other.ids[0], "t"), Caller.organiser("t")):
         with pytest.raises(Forbidden):
-            simulations.count(now.context, Caller(caller, "t"), seats.id, 1)
+            simulations.count(now.context, caller, seats.id, 1)
 
 
 def test_a_game_that_is_over_has_no_budget(stage):

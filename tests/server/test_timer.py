@@ -6,7 +6,7 @@ import pytest
 
 from referee.wire import AgentRequest
 from server.errors import OutOfTime
-from server.security.callers import ORGANISER, Caller
+from server.security.callers import Caller
 from server.services import agents, matches, strokes, timer, turns
 from server.services.commands import Command
 from server.services.context import Context
@@ -54,7 +54,7 @@ def new_game(context, *names):
     ids = [json.loads(answer.body)["agent"]["id"] for answer in registered]
     body = json.dumps({"agents": ids, "clock": {"seconds": 10.0}}).encode()
     command = Command(
-        Caller(ORGANISER, "t"), "/v1/matches", names[0], None, "application/json", body, context.time.now()
+        Caller.organiser("t"), "/v1/matches", names[0], None, "application/json", body, context.time.now()
     )
     match = json.loads(matches.create(context, command).body)
     return match["played"][0]["id"], ids[match["first_breaker"]]

@@ -54,7 +54,8 @@ class Stage:
     def command(self, caller: str, body: bytes = b"", key: str = "k", version: int | None = None) -> Command:
         """A complete request that arrives now."""
         if_match = None if version is None else f'"{version}"'
-        return Command(Caller(caller, "t"), "/route", key, if_match, "application/json", body, self.time.now())
+        who = Caller.organiser("t") if caller == ORGANISER else Caller(caller, "t")
+        return Command(who, "/route", key, if_match, "application/json", body, self.time.now())
 
     def news(self, agent: str) -> dict[str, Any] | None:
         """What the agent is told next, after the timer has looked."""

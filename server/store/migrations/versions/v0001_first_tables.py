@@ -106,12 +106,26 @@ def upgrade() -> None:
     )
     op.create_table(
         "tokens",
+        sa.Column("id", sa.String(length=64), nullable=False),
         sa.Column("digest", sa.String(length=64), nullable=False),
-        sa.Column("agent_id", sa.String(length=64), nullable=False),
+        sa.Column("agent_id", sa.String(length=64), nullable=True),
+        sa.Column("name", sa.String(length=64), nullable=True),
+        sa.Column("scopes", sa.String(length=64), nullable=False),
         sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.Column("expires_at", sa.BigInteger(), nullable=True),
         sa.Column("revoked_at", sa.BigInteger(), nullable=True),
         sa.ForeignKeyConstraint(["agent_id"], ["agents.id"], name=op.f("fk_tokens_agent_id_agents")),
-        sa.PrimaryKeyConstraint("digest", name=op.f("pk_tokens")),
+        sa.PrimaryKeyConstraint("id", name=op.f("pk_tokens")),
+        sa.UniqueConstraint("digest", name=op.f("uq_tokens_digest")),
+    )
+    op.create_table(
+        "invitations",
+        sa.Column("digest", sa.String(length=64), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.Column("expires_at", sa.BigInteger(), nullable=True),
+        sa.Column("used_at", sa.BigInteger(), nullable=True),
+        sa.Column("agent_id", sa.String(length=64), nullable=True),
+        sa.PrimaryKeyConstraint("digest", name=op.f("pk_invitations")),
     )
     op.create_index(op.f("ix_tokens_agent_id"), "tokens", ["agent_id"], unique=False)
     op.create_table(
@@ -212,6 +226,7 @@ def downgrade() -> None:
     op.drop_index(op.f("ix_tokens_agent_id"), table_name="tokens")
     op.drop_table("tokens")
     op.drop_table("signing_keys")
+    op.drop_table("invitations")
     op.drop_index("ix_notices_agent_delivered", table_name="notices")
     op.drop_table("notices")
     op.drop_index(op.f("ix_matches_status"), table_name="matches")
