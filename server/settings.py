@@ -1,35 +1,57 @@
-"""What one server process is told: read once from the environment, then passed to `create_app`."""
+"""What a server is told: defaults, a TOML file, the environment, the command line; each goes over the one before.
+
+Read once, then passed to `create_app`.
+"""
 
 import hashlib
 import math
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+import tomllib
+from collections.abc import Mapping
+from dataclasses import Field, dataclass, field, fields
+from pathlib import Path
 from typing import Any
 
 from .errors import SettingsError
 
 ENVIRONMENT_PREFIX = "POOLIAD_"
+SECRET = "organiser_token"
 SHORTEST_ORGANISER_TOKEN = 32
 """Characters. 32 hexadecimal digits are 128 bits, the least that no one guesses."""
+FLAGS = {"true": True, "1": True, "yes": True, "false": False, "0": False, "no": False}
+REGISTRATIONS = ("open", "invited", "closed")
 
-MAY_BE_ZERO = frozenset({"lag_turn", "lag_game", "token_seconds"})
-"""Zero turns these off; the others need a number above it."""
+
+def setting(default: Any, words: str, *, zero: bool = False, one_of: tuple[str, ...] = ()) -> Any:
+    """A field of `Settings`.
+
+    Args:
+        default: its value unless told; its type is the setting's.
+        words: what it is, for the documentation.
+        zero: whether 0 is allowed, which turns it off.
+        one_of: the values allowed, for a text.
+    """
+    return field(default=default, metadata={"words": words, "zero": zero, "one_of": one_of})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settings:
     """One server's settings; times in seconds, sizes in bytes.
 
+<<<<<<< HEAD
     `organiser_digest` is the SHA-256 (hex) of the organiser's token, None when nobody organises; the token
     itself is never kept. `fetch_grace` is how long a turn may lie unfetched before its clock starts by
     itself. `house_bots` names the agents the server runs itself, `NAME` or `NAME=AGENT`, apart by `;`;
     `house_places` is how many matches each of them plays at a time. `failpoint` is for tests of crashes
     (`server.failpoints`).
+=======
+    `organiser_digest` is the SHA-256 (hex) of the organiser's token, None when nobody organises; the token itself is
+    never kept.
+>>>>>>> e599bb4 (Settings from a TOML file too, with where each comes from; tests of tokens and of who may do what)
     """
 
-    database: str = "sqlite:///pooliad.db"
     organiser_digest: str | None = None
+<<<<<<< HEAD
     registration: str = "open"
     public_reads: bool = True
     token_seconds: float = 0.0
@@ -49,15 +71,36 @@ class Settings:
     house_bots: str = ""
     house_places: int = 4
     failpoint: str = ""
+=======
+    database: str = setting(
+        "sqlite:///pooliad.db", "where everything is kept: `sqlite:///path` or `postgresql://user@host/name`"
+    )
+    registration: str = setting("open", "who may register agents: `open`, `invited`, `closed`", one_of=REGISTRATIONS)
+    public_reads: bool = setting(True, "whether games, lists and records are read without a token")
+    token_seconds: float = setting(0.0, "how long agents' tokens are good for; 0: until revoked", zero=True)
+    fetch_grace: float = setting(5.0, "a turn that nobody fetches starts its clock after so long")
+    no_show_seconds: float = setting(60.0, "a player whose first turn nobody fetches for so long loses")
+    lag_turn: float = setting(0.05, "given back of every turn for the way there and back; 0: nothing", zero=True)
+    lag_game: float = setting(5.0, "given back at most to a player in a game; 0: nothing", zero=True)
+    heartbeat_period: float = setting(1.0, "between signs of life: what a crash may cost a running clock at most")
+    timer_period: float = setting(0.2, "between looks at the clocks")
+    poll_recheck: float = setting(2.0, "between looks of a long poll that nobody woke")
+    longest_wait: float = setting(60.0, "a long poll lasts at most")
+    stream_recheck: float = setting(1.0, "between looks of a stream that nobody woke")
+    stream_keepalive: float = setting(15.0, "between comments in a stream that is silent")
+    header_seconds: float = setting(10.0, "a request's headers must be complete after")
+    body_limit: int = setting(2 * 1024 * 1024, "a request's body has at most so many bytes")
+    body_seconds: float = setting(10.0, "a request's body must be complete after")
+    drain_seconds: float = setting(5.0, "the server stops at the latest so long after SIGTERM")
+    house_bots: str = setting("", "agents that the server runs itself: `NAME` or `NAME=AGENT`, apart by `;`")
+    house_places: int = setting(4, "matches that each of them plays at a time")
+    failpoint: str = setting("", "where the server is to die, for tests of crashes (`server.failpoints`)")
+>>>>>>> e599bb4 (Settings from a TOML file too, with where each comes from; tests of tokens and of who may do what)
 
     def __post_init__(self) -> None:
         _require_database(self.database)
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, int | float) and not (math.isfinite(value) and value >= 0):
-                raise SettingsError(f"{field.name} is {value!r}; allowed: a finite number, 0 or above")
-            if value == 0 and field.name not in MAY_BE_ZERO:
-                raise SettingsError(f"{field.name} is {value!r}; allowed: a finite number above 0")
+        for each in settable():
+            _check(each, getattr(self, each.name))
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str]) -> "Settings":
@@ -65,14 +108,48 @@ class Settings:
 
         Raises `SettingsError` naming the variable, its value and what is allowed.
         """
-        given: dict[str, Any] = {}
-        for field in fields(cls):
-            name = ENVIRONMENT_PREFIX + field.name.upper()
-            if field.name != "organiser_digest" and name in environment:
-                given[field.name] = _parsed(name, environment[name], type(field.default))
-        if token := environment.get(ENVIRONMENT_PREFIX + "ORGANISER_TOKEN"):
-            given["organiser_digest"] = organiser_digest(token)
-        return cls(**given)
+        return effective(environment=environment).settings
+
+
+@dataclass(frozen=True, slots=True)
+class Effective:
+    """Settings, and where each comes from: `default`, `file`, `environment` or `option`."""
+
+    settings: Settings
+    sources: Mapping[str, str]
+
+    def __str__(self) -> str:
+        """The settings as a TOML file that says where they come from; secrets are masked."""
+        lines = [_line(each.name, getattr(self.settings, each.name), self.sources) for each in settable()]
+        token = "***" if self.settings.organiser_digest else ""
+        return "\n".join([*lines, _line(SECRET, token, self.sources)])
+
+
+def effective(
+    config: Path | None = None, environment: Mapping[str, str] | None = None, options: Mapping[str, Any] | None = None
+) -> Effective:
+    """Settings from a TOML file, the environment and options of the command line (None: not given).
+
+    Raises `SettingsError` naming what cannot be, and `OSError` when the file cannot be read.
+    """
+    found = {
+        "file": {} if config is None else _from_file(config),
+        "environment": _from_environment(environment or {}),
+        "option": {name: value for name, value in (options or {}).items() if value is not None},
+    }
+    given: dict[str, Any] = {}
+    sources: dict[str, str] = {}
+    for source, values in found.items():
+        given |= values
+        sources |= dict.fromkeys(values, source)
+    if token := given.pop(SECRET, None):
+        given["organiser_digest"] = organiser_digest(token)
+    return Effective(Settings(**given), sources)
+
+
+def settable() -> list[Field[Any]]:
+    """The fields that a file or a variable may set."""
+    return [each for each in fields(Settings) if each.metadata]
 
 
 def organiser_digest(token: str) -> str:
@@ -96,9 +173,60 @@ def without_password(url: str) -> str:
     return re.sub(r"(//[^/@]*:)[^@]*@", r"\1***@", url)
 
 
-def _parsed(name: str, text: str, kind: Callable[[str], Any]) -> Any:
+def _from_file(path: Path) -> dict[str, Any]:
     try:
-        return kind(text)
-    except ValueError as error:
-        allowed = "a whole number" if kind is int else "a number"
-        raise SettingsError(f"{name} is {text!r}; allowed: {allowed}") from error
+        values = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise SettingsError(f"{path} is no TOML file: {error}") from error
+    known = {each.name: type(each.default) for each in settable()} | {SECRET: str}
+    for name, value in values.items():
+        if name not in known:
+            raise SettingsError(f"{path}: there is no setting {name!r}; allowed: {', '.join(sorted(known))}")
+        allowed = (int, float) if known[name] is float else known[name]
+        if not isinstance(value, allowed) or (isinstance(value, bool) and known[name] is not bool):
+            raise SettingsError(f"{path}: {name} is {value!r}; allowed: {_KINDS[known[name]]}")
+    return {name: float(value) if known[name] is float else value for name, value in values.items()}
+
+
+def _from_environment(environment: Mapping[str, str]) -> dict[str, Any]:
+    given: dict[str, Any] = {}
+    for each in settable():
+        name = ENVIRONMENT_PREFIX + each.name.upper()
+        if name in environment:
+            given[each.name] = _parsed(name, environment[name], type(each.default))
+    if token := environment.get(ENVIRONMENT_PREFIX + SECRET.upper()):
+        given[SECRET] = token
+    return given
+
+
+_KINDS: Mapping[type, str] = {int: "a whole number", float: "a number", bool: "true or false", str: "a text"}
+
+
+def _parsed(name: str, text: str, kind: type) -> Any:
+    try:
+        return FLAGS[text.lower()] if kind is bool else kind(text)
+    except (ValueError, KeyError) as error:
+        raise SettingsError(f"{name} is {text!r}; allowed: {_KINDS[kind]}") from error
+
+
+def _check(each: Field[Any], value: Any) -> None:
+    """Raise `SettingsError` for a value that the setting cannot have."""
+    if isinstance(value, bool):
+        return
+    if isinstance(value, int | float):
+        zero = each.metadata["zero"]
+        if not (math.isfinite(value) and (value > 0 or (zero and value == 0))):
+            raise SettingsError(f"{each.name} is {value!r}; allowed: a finite number{'' if zero else ' above 0'}")
+    elif (one_of := each.metadata["one_of"]) and value not in one_of:
+        raise SettingsError(f"{each.name} is {value!r}; allowed: {', '.join(one_of)}")
+
+
+def _line(name: str, value: Any, sources: Mapping[str, str]) -> str:
+    return f"{name} = {_shown(value)}  # {sources.get(name, 'default')}"
+
+
+def _shown(value: Any) -> str:
+    """A value in TOML; the password of a database's address is left out."""
+    if isinstance(value, str):
+        return '"' + without_password(value).replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return str(value).lower()

@@ -3,7 +3,7 @@
 from fastapi import APIRouter, Response
 
 from referee.wire import InvitationRequest, Invitations, TokenList, TokenRequest, TokenSecret
-from server.errors import Forbidden, Invalid
+from server.errors import Forbidden, Invalid, WrongStatus
 from server.routes.dependencies import Authenticated, Limit, Place, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import tokens
@@ -29,7 +29,7 @@ def listing(context: Server, caller: Authenticated, after: Place, limit: Limit) 
 
 @router.post(
     "/tokens/{token_id}/rotate",
-    **describe(*OWNED, success={200: TokenSecret}, key=True),
+    **describe(*OWNED, WrongStatus, success={200: TokenSecret}, key=True),
     summary="Rotate a token",
 )
 def rotate(token_id: str, context: Server, command: Sent) -> Response:

@@ -8,7 +8,7 @@ from sqlalchemy import Connection, Row, insert, select, update
 
 from referee.play import nanoseconds
 from referee.wire import InvitationRequest, Invitations, TokenList, TokenRequest, TokenSecret, TokenView
-from server.errors import Forbidden, NotFound
+from server.errors import Forbidden, NotFound, WrongStatus
 from server.security.callers import Caller
 from server.security.tokens import INVITATION_PREFIX, STAFF_PREFIX, derived_token, digest, new_salt
 from server.services import pages
@@ -93,7 +93,7 @@ def _created(connection: Connection, command: Command) -> Answer:
 
 def _rotated(connection: Connection, row: Row[Any], command: Command) -> Answer:
     if row.revoked_at is not None:
-        raise Forbidden("the token was revoked; make another")
+        raise WrongStatus("the token was revoked; make another")
     salt = new_salt()
     renewed = digest(derived_token(command.caller.token, salt, STAFF_PREFIX))
     connection.execute(update(tokens).where(tokens.c.id == row.id).values(digest=renewed))
