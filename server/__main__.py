@@ -1,17 +1,17 @@
-"""`python -m server --host H --port P --database URL --processes N`.
+"""`python -m server --host H --port P --database URL --processes N --config FILE`.
 
-Other settings come from the environment.
+Other settings come from the file and from the environment (docs/operations.md).
 """
 
 import argparse
-import dataclasses
 import os
 import sys
+from pathlib import Path
 
 from server.errors import SettingsError
 from server.processes import serve_by_many
 from server.serve import serve
-from server.settings import Settings
+from server.settings import effective
 
 MOST_PROCESSES = 64
 
@@ -20,10 +20,11 @@ def main() -> None:
     """Read the command line and the environment, and serve."""
     options = _parser().parse_args()
     try:
-        settings = Settings.from_environment(os.environ)
-        if options.database is not None:
-            settings = dataclasses.replace(settings, database=options.database)
-        if options.processes == 1:
+        found = effective(options.config, os.environ, {"database": options.database})
+        settings = found.settings
+        if options.print_config:
+            print(found)  # noqa: T201
+        elif options.processes == 1:
             serve(settings, options.host, options.port)
         else:
             serve_by_many(settings, options.host, options.port, options.processes)
@@ -38,6 +39,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--database", help="sqlite:///path or postgresql://…; else POOLIAD_DATABASE, else sqlite:///pooliad.db"
     )
+    parser.add_argument("--config", type=Path, default=os.environ.get("POOLIAD_CONFIG"), help="a TOML file of settings")
+    parser.add_argument("--print-config", action="store_true", help="print the settings in effect, and leave")
     parser.add_argument("--processes", type=_count, default=1, help="more than one on PostgreSQL only")
     return parser
 

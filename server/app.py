@@ -75,6 +75,7 @@ def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManag
                 await stack.enter_async_context(part.running())
             yield
         context.wakeups.drain()
+        context.physics.close()
         context.database.dispose()
 
     return lifespan

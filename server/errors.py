@@ -25,6 +25,7 @@
     ├── Refused                 422  by the referee
     ├── KeyReused               422
     ├── VersionRequired         428
+    ├── TooManyRequests         429  says whose limit it is and how long to wait
     ├── Internal                500  a fault of ours
     └── Draining                503
 """
@@ -59,6 +60,8 @@ class ServerError(Exception):
     status: ClassVar[int]
     code: ClassVar[ProblemCode]
     headers: ClassVar[Mapping[str, str]] = {}
+    seconds: int | None = None
+    """How long to wait before the next try, where that is known."""
 
     def __init__(self, detail: str, **extensions: Any) -> None:
         super().__init__(detail)
@@ -207,6 +210,22 @@ class VersionRequired(ServerError):
     status, code = 428, ProblemCode.VERSION_REQUIRED
 
 
+class TooManyRequests(ServerError):
+    """Somebody asked more often than allowed.
+
+    Args:
+        key: whose limit it is. seconds: how long to wait. allowed: what is allowed.
+    """
+
+    status, code = 429, ProblemCode.TOO_MANY_REQUESTS
+
+    def __init__(self, key: str, seconds: int, allowed: str) -> None:
+        super().__init__(
+            f"too many requests for the {key}; wait {seconds} s", field="Retry-After", value=seconds, allowed=allowed
+        )
+        self.key, self.seconds = key, seconds
+
+
 class Internal(ServerError):
     """A fault of the server; the log has the traceback."""
 
@@ -275,7 +294,8 @@ _PHYSICS_FIELDS = (
 def render(error: ServerError, instance: str) -> Response:
     """The one place where an error becomes a response."""
     body = error.problem(instance).model_dump_json(exclude_unset=True)
-    return Response(body, error.status, headers=dict(error.headers), media_type=PROBLEM_JSON)
+    headers = dict(error.headers) | ({} if error.seconds is None else {"retry-after": str(error.seconds)})
+    return Response(body, error.status, headers=headers, media_type=PROBLEM_JSON)
 
 
 async def handle_server_error(request: Request, error: Exception) -> Response:

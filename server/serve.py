@@ -13,6 +13,7 @@ from contextlib import contextmanager
 import uvicorn
 
 from server.app import create_app
+from server.security.slow_headers import http_protocol
 from server.services.context import Context
 from server.settings import Settings
 
@@ -77,7 +78,7 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
 
     config = uvicorn.Config(
         app,
-        http="h11",
+        http=http_protocol(settings.header_seconds),
         ws="none",
         lifespan="on",
         access_log=False,

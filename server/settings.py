@@ -38,40 +38,11 @@ def setting(default: Any, words: str, *, zero: bool = False, one_of: tuple[str, 
 class Settings:
     """One server's settings; times in seconds, sizes in bytes.
 
-<<<<<<< HEAD
-    `organiser_digest` is the SHA-256 (hex) of the organiser's token, None when nobody organises; the token
-    itself is never kept. `fetch_grace` is how long a turn may lie unfetched before its clock starts by
-    itself. `house_bots` names the agents the server runs itself, `NAME` or `NAME=AGENT`, apart by `;`;
-    `house_places` is how many matches each of them plays at a time. `failpoint` is for tests of crashes
-    (`server.failpoints`).
-=======
     `organiser_digest` is the SHA-256 (hex) of the organiser's token, None when nobody organises; the token itself is
     never kept.
->>>>>>> e599bb4 (Settings from a TOML file too, with where each comes from; tests of tokens and of who may do what)
     """
 
     organiser_digest: str | None = None
-<<<<<<< HEAD
-    registration: str = "open"
-    public_reads: bool = True
-    token_seconds: float = 0.0
-    fetch_grace: float = 5.0
-    no_show_seconds: float = 60.0
-    lag_turn: float = 0.05
-    lag_game: float = 5.0
-    heartbeat_period: float = 1.0
-    timer_period: float = 0.2
-    poll_recheck: float = 2.0
-    longest_wait: float = 60.0
-    stream_recheck: float = 1.0
-    stream_keepalive: float = 15.0
-    body_limit: int = 2 * 1024 * 1024
-    body_seconds: float = 10.0
-    drain_seconds: float = 5.0
-    house_bots: str = ""
-    house_places: int = 4
-    failpoint: str = ""
-=======
     database: str = setting(
         "sqlite:///pooliad.db", "where everything is kept: `sqlite:///path` or `postgresql://user@host/name`"
     )
@@ -91,11 +62,15 @@ class Settings:
     header_seconds: float = setting(10.0, "a request's headers must be complete after")
     body_limit: int = setting(2 * 1024 * 1024, "a request's body has at most so many bytes")
     body_seconds: float = setting(10.0, "a request's body must be complete after")
+    token_rate: float = setting(200.0, "requests a second of one token; a hundred shots of a batch count as one")
+    token_burst: float = setting(1000.0, "requests of one token at once")
+    address_rate: float = setting(200.0, "requests a second of one address without a valid token")
+    address_burst: float = setting(1000.0, "such requests at once")
+    physics_threads: int = setting(2, "threads for simulations that clients ask for")
     drain_seconds: float = setting(5.0, "the server stops at the latest so long after SIGTERM")
     house_bots: str = setting("", "agents that the server runs itself: `NAME` or `NAME=AGENT`, apart by `;`")
     house_places: int = setting(4, "matches that each of them plays at a time")
     failpoint: str = setting("", "where the server is to die, for tests of crashes (`server.failpoints`)")
->>>>>>> e599bb4 (Settings from a TOML file too, with where each comes from; tests of tokens and of who may do what)
 
     def __post_init__(self) -> None:
         _require_database(self.database)
@@ -170,7 +145,7 @@ def _require_database(url: str) -> None:
 
 def without_password(url: str) -> str:
     """A database's URL as it may be shown."""
-    return re.sub(r"(//[^/@]*:)[^@]*@", r"\1***@", url)
+    return re.sub(r"(//[^/@:]*:).*@", r"\1***@", url)
 
 
 def _from_file(path: Path) -> dict[str, Any]:

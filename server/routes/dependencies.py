@@ -5,6 +5,7 @@ from typing import Annotated
 
 from fastapi import Depends, Header, Query, Request, Response
 
+from server.errors import Unauthorized
 from server.security.callers import Caller, identify
 from server.security.tokens import bearer
 from server.services import pages
@@ -28,9 +29,24 @@ def _token(authorization: Annotated[str | None, Header(include_in_schema=False)]
 Token = Annotated[str | None, Depends(_token)]
 
 
-def _caller(context: Server, token: Token) -> Caller:
-    with context.database.reading() as connection:
-        return identify(connection, token, context.settings.organiser_digest, context.time.now())
+ACTIONS = ("/shots", "/decisions", "/concede")
+"""A player's own moves are never refused for being many: while it is the turn, the clock decides."""
+
+
+def _caller(context: Server, token: Token, request: Request) -> Caller:
+    try:
+        with context.database.reading() as connection:
+            caller = identify(connection, token, context.settings.organiser_digest, context.time.now())
+    except Unauthorized:
+        context.limits.count_stranger(_address(request))
+        raise
+    if not (request.method == "POST" and request.url.path.endswith(ACTIONS)):
+        context.limits.count(caller)
+    return caller
+
+
+def _address(request: Request) -> str:
+    return request.client.host if request.client else "unknown"
 
 
 def _simulating(caller: Annotated[Caller, Depends(_caller)]) -> Caller:
@@ -38,12 +54,16 @@ def _simulating(caller: Annotated[Caller, Depends(_caller)]) -> Caller:
     return caller
 
 
-def _visitor(context: Server, token: Token) -> Caller | None:
-    return None if token is None else _caller(context, token)
+def _visitor(context: Server, token: Token, request: Request) -> Caller | None:
+    if token is not None:
+        return _caller(context, token, request)
+    context.limits.count_stranger(_address(request))
+    return None
 
 
-def _reader(context: Server, token: Token) -> Caller | None:
-    return None if token is None and context.settings.public_reads else _caller(context, token)
+def _reader(context: Server, token: Token, request: Request) -> Caller | None:
+    known = token is not None or not context.settings.public_reads
+    return _caller(context, token, request) if known else _visitor(context, None, request)
 
 
 Authenticated = Annotated[Caller, Depends(_caller)]

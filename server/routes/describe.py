@@ -20,6 +20,7 @@ from server.errors import (
     ServerError,
     SlowBody,
     TooLarge,
+    TooManyRequests,
     Unauthorized,
     UnsupportedMediaType,
 )
@@ -40,6 +41,7 @@ def describe(
     token: bool = True,
     key: bool = False,
     version: bool = False,
+    limited: bool = True,
 ) -> Described:
     """Keyword arguments for a route.
 
@@ -49,6 +51,7 @@ def describe(
         success: the message it answers with, or the media type of what is none, by status; None leaves it to
             the
             framework.
+        limited: whether it may be asked too often.
         token: whether it takes one; key: an Idempotency-Key; version: If-Match.
     """
     implied: list[type[ServerError]] = [Unauthorized] if token else []
@@ -62,7 +65,7 @@ def describe(
     responses = {status: _success(answer) for status, answer in (success or {}).items()}
     described: Described = {
         "openapi_extra": extra,
-        "responses": responses | _problems(*problems, *implied, Internal),
+        "responses": responses | _problems(*problems, *implied, *([TooManyRequests] if limited else []), Internal),
     }
     if success:
         described |= {"status_code": min(success), "response_model": None}

@@ -11,14 +11,14 @@ router = APIRouter(tags=["operations"])
 
 
 @router.head("/healthz", include_in_schema=False)
-@router.get("/healthz", **describe(token=False), summary="The process runs")
+@router.get("/healthz", **describe(token=False, limited=False), summary="The process runs")
 def healthz() -> dict[str, str]:
     """Answers as long as the process serves requests at all."""
     return {"status": "ok"}
 
 
 @router.head("/readyz", include_in_schema=False)
-@router.get("/readyz", **describe(Draining, token=False), summary="The server can take games")
+@router.get("/readyz", **describe(Draining, token=False, limited=False), summary="The server can take games")
 def readyz(context: Server) -> dict[str, str]:
     """The kernels are loaded, the database has this version's tables, and the server is not shutting down."""
     if context.wakeups.draining.is_set():

@@ -11,6 +11,8 @@ from sqlalchemy import Connection
 from referee.play import nanoseconds
 from server import failpoints
 from server.failpoints import Failpoint
+from server.services.limits import Limits
+from server.services.physics_pool import PhysicsPool
 from server.services.presence import Presence
 from server.services.time import TimeSource
 from server.services.wakeups import Wakeups
@@ -35,8 +37,14 @@ class Context:
     presence: Presence = field(default_factory=Presence)
     warm: threading.Event = field(default_factory=threading.Event)
     warm_up_failed: threading.Event = field(default_factory=threading.Event)
+    limits: Limits = field(init=False)
+    physics: PhysicsPool = field(init=False)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
     failpoint: Failpoint = field(default_factory=lambda: failpoints.parse(""))
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "limits", Limits.of(self.settings, self.time))
+        object.__setattr__(self, "physics", PhysicsPool(self.settings.physics_threads))
 
     @property
     def fetch_grace(self) -> int:

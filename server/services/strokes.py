@@ -7,7 +7,7 @@ game's seed and the stroke's index alone, so that a shot simulated twice is the 
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from sqlalchemy import Connection, insert
+from sqlalchemy import Connection, insert, select
 
 from physics import PhysicsError
 from referee import Action, Decision, Refusal
@@ -15,10 +15,12 @@ from referee.play import Refused, Stroke, play_stroke
 from referee.record import Chain, stroke_entry
 from referee.wire import DecisionRequest, Fault, ShotRequest, StrokeAnswer, StrokeDetail, shown
 from server import errors
+from server.security.callers import Caller
 from server.services import games, simulations
 from server.services.commands import Answer, Command, keep, parse, recall
 from server.services.context import Context, Writing
 from server.services.live import LiveGame, find, hold
+from server.store.tables import games as game_rows
 from server.store.tables import moves
 
 
@@ -51,6 +53,7 @@ class _Asked:
 
 def _act(context: Context, game_id: str, command: Command, read: Callable[[], _Asked]) -> Answer:
     with context.database.reading() as connection:
+        _limit_others(context, connection, game_id, command.caller)
         live = find(connection, game_id)
         seat = live.seat_of(command.caller)
         if stored := recall(connection, command):
@@ -73,6 +76,12 @@ def _act(context: Context, game_id: str, command: Command, read: Callable[[], _A
     context.wakeups.notify(live.agents)
     context.failpoint("shot-woken")
     return answer
+
+
+def _limit_others(context: Context, connection: Connection, game_id: str, caller: Caller) -> None:
+    """Count the request unless it is its sender's turn: on the own turn the clock decides, not a 429."""
+    if connection.scalar(select(game_rows.c.mover).where(game_rows.c.id == game_id)) != caller.id:
+        context.limits.count(caller)
 
 
 def _require_turn(connection: Connection, live: LiveGame, seat: int, command: Command) -> None:

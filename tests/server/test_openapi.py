@@ -130,7 +130,9 @@ class Somewhere:
             ann, bob = self.new_player(), self.new_player()
             match = ann.post("/v1/matches", {"agents": [ann.id, bob.id]}).json()["id"]
             caller = bob
-        address = path.format(agent_id=agent, match_id=match, game_id=view["game"])
+        token = {"name": "example", "scopes": ["read"]}
+        token_id = table.organiser.post("/v1/tokens", token).json()["id"]
+        address = path.format(agent_id=agent, match_id=match, game_id=view["game"], token_id=token_id)
         headers = {header["name"]: header["example"] for header in headers_of(operation)}
         if "If-Match" in headers:
             headers["If-Match"] = f'"{view["version"]}"'
