@@ -1,0 +1,213 @@
+"""What is let in, how slowly and how often: docs/protocol.md, limits."""
+
+import asyncio
+import contextlib
+import socket
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+from support.server_time import StoppedTime
+
+from server.errors import TooManyRequests
+from server.security import rates
+from server.security.rates import Rates
+from server.security.slow_headers import TIMED_OUT
+from server.services.physics_pool import WAITING, PhysicsPool
+
+SCENE = {"balls": {"0": [0.5, 1.7]}, "shots": [{"v": 1.0, "phi": 270.0, "theta": 10.0, "a": 0.0, "b": 0.0}]}
+
+
+# slow clients
+
+
+def connected(server):
+    host, _, port = server.url.removeprefix("http://").partition(":")
+    return socket.create_connection((host, int(port)), timeout=20)
+
+
+def until_closed(connection):
+    """Everything the server says until it closes the connection."""
+    said = b""
+    with contextlib.suppress(ConnectionResetError):  # what was still being sent came too late
+        while part := connection.recv(4096):
+            said += part
+    return said
+
+
+def trickle(connection, parts, pause, stop):
+    for part in parts:
+        if stop.wait(pause):
+            return
+        try:
+            connection.sendall(part)
+        except OSError:
+            return
+
+
+def test_headers_that_trickle_in_forever_are_cut_off(own_server):
+    server = own_server(POOLIAD_HEADER_SECONDS="0.7")
+    stop = threading.Event()
+    with connected(server) as connection:
+        connection.sendall(b"GET /healthz HTTP/1.1\r\n")
+        start = time.monotonic()
+        parts = [f"x-{number}: y\r\n".encode() for number in range(1000)]
+        sender = threading.Thread(target=trickle, args=(connection, parts, 0.1, stop))
+        sender.start()
+        said = until_closed(connection)
+        stop.set()
+        sender.join()
+    assert said in (b"", TIMED_OUT)
+    assert 0.6 < time.monotonic() - start < 10.0
+    with connected(server) as silent:
+        assert until_closed(silent) == TIMED_OUT
+
+
+def test_a_second_request_whose_headers_never_end_is_cut_off_too(own_server):
+    server = own_server(POOLIAD_HEADER_SECONDS="0.7")
+    with connected(server) as connection:
+        connection.sendall(b"GET /healthz HTTP/1.1\r\nhost: x\r\n\r\n")
+        assert connection.recv(4096).startswith(b"HTTP/1.1 200 ")
+        connection.sendall(b"GET /healthz HTTP/1.1\r\n")
+        assert until_closed(connection).endswith(TIMED_OUT)
+
+
+def test_the_deadline_of_headers_leaves_long_polls_and_slow_bodies_alone(own_server):
+    server = own_server(POOLIAD_HEADER_SECONDS="0.5")
+    token = server.request("POST", "/v1/agents", json={"name": "ann"}).json()["token"]
+    assert server.request("GET", "/v1/turns", token, params={"wait": 1.2}).status_code == 204
+
+    def slowly():
+        for part in (b'{"name"', b": ", b'"bob"}'):
+            time.sleep(0.4)
+            yield part
+
+    headers = {"Content-Type": "application/json"}
+    assert server.request("POST", "/v1/agents", content=slowly(), headers=headers).status_code == 201
+
+
+def test_a_body_that_never_ends_is_cut_off(own_server):
+    server = own_server(POOLIAD_BODY_SECONDS="0.5")
+    with connected(server) as connection:
+        connection.sendall(b"POST /v1/agents HTTP/1.1\r\nhost: x\r\ncontent-length: 100\r\n\r\n{")
+        start = time.monotonic()
+        said = until_closed(connection)
+    assert said.startswith(b"HTTP/1.1 408 ")
+    assert b"slow_body" in said
+    assert 0.4 < time.monotonic() - start < 10.0
+
+
+# frequent clients
+
+
+def test_a_bucket_lets_a_burst_through_and_then_a_steady_rate():
+    now = StoppedTime()
+    buckets = Rates(rate=2.0, burst=4.0, time=now)
+    for _ in range(4):
+        buckets.take("ann")
+    with pytest.raises(TooManyRequests) as refused:
+        buckets.take("ann")
+    assert (refused.value.key, refused.value.seconds) == ("ann", 1)
+    buckets.take("bob")
+    now.pass_(0.5)
+    buckets.take("ann")
+    with pytest.raises(TooManyRequests):
+        buckets.take("ann")
+
+
+def test_what_costs_more_than_a_bucket_holds_passes_and_is_paid_for():
+    now = StoppedTime()
+    buckets = Rates(rate=1.0, burst=10.0, time=now)
+    buckets.take("ann", cost=30.0)
+    with pytest.raises(TooManyRequests) as refused:
+        buckets.take("ann")
+    assert refused.value.seconds == 21
+    now.pass_(21.0)
+    buckets.take("ann")
+
+
+def test_the_memory_of_callers_is_bounded(monkeypatch):
+    monkeypatch.setattr(rates, "MOST_BUCKETS", 10)
+    now = StoppedTime()
+    buckets = Rates(rate=1.0, burst=5.0, time=now)
+    for number in range(100):
+        now.pass_(1.0)
+        buckets.take(f"address {number}")
+    assert len(buckets._buckets) <= 10
+
+
+def test_too_many_requests_name_the_token_and_the_seconds(own_server):
+    server = own_server(POOLIAD_TOKEN_RATE="0.5", POOLIAD_TOKEN_BURST="3")
+    made = server.request("POST", "/v1/agents", json={"name": "ann"}).json()
+    statuses = [server.request("GET", "/v1/turns", made["token"]).status_code for _ in range(4)]
+    assert statuses == [204, 204, 204, 429]
+    refused = server.request("GET", "/v1/turns", made["token"])
+    problem = refused.json()
+    assert problem["code"] == "too_many_requests"
+    assert made["agent"]["id"] in problem["detail"]
+    assert refused.headers["retry-after"] == str(problem["value"]) == "2"
+    other = server.request("POST", "/v1/agents", json={"name": "bob"}).json()
+    assert server.request("GET", "/v1/turns", other["token"]).status_code == 204
+
+
+def test_guesses_of_tokens_are_counted_by_address(own_server):
+    server = own_server(POOLIAD_ADDRESS_RATE="0.01", POOLIAD_ADDRESS_BURST="3")
+    guesses = [server.request("GET", "/v1/turns", f"pool_agt_guess{number}").status_code for number in range(5)]
+    assert guesses == [401, 401, 401, 429, 429]
+    assert "address 127.0.0.1" in server.request("GET", "/v1/agents").json()["detail"]
+    assert server.request("GET", "/healthz").status_code == 200
+
+
+def test_the_movers_own_shots_are_never_too_many(own_server, table_at, break_shot):
+    """After any number of refusals in a turn the clock decides, not a 429; whose turn it is not is counted."""
+    server = own_server(POOLIAD_TOKEN_RATE="0.01", POOLIAD_TOKEN_BURST="12")
+    table = table_at(server, noise={"level": 0.0})
+    mover, view = table.mover()
+    refused = [mover.act(view, break_shot | {"call": "safety"}).status_code for _ in range(25)]
+    assert refused == [422] * 25
+    other = next(player for player in table.players if player.id != mover.id)
+    statuses = {other.act(view, break_shot).status_code for _ in range(14)}
+    assert statuses == {409, 429}
+    assert mover.act(view, break_shot).status_code == 200
+
+
+def test_a_batch_counts_by_its_shots(own_server):
+    server = own_server(POOLIAD_TOKEN_RATE="0.01", POOLIAD_TOKEN_BURST="10")
+    token = server.request("POST", "/v1/agents", json={"name": "ann"}).json()["token"]
+    body = SCENE | {"shots": SCENE["shots"] * 1000}
+    assert server.request("POST", "/v1/simulate/batch", token, json=body).status_code == 429
+    small = SCENE | {"shots": SCENE["shots"] * 50}
+    assert server.request("POST", "/v1/simulate/batch", token, json=small).status_code == 200
+
+
+# the physics of clients
+
+
+def test_no_more_simulations_wait_than_have_room():
+    async def crowd():
+        pool, gate = PhysicsPool(1), threading.Event()
+        tasks = [asyncio.create_task(pool.run(gate.wait)) for _ in range(WAITING + 1)]
+        await asyncio.sleep(0)
+        with pytest.raises(TooManyRequests, match="physics of this server"):
+            await pool.run(gate.wait)
+        gate.set()
+        await asyncio.gather(*tasks)
+        assert pool.busy == 0
+        pool.close()
+
+    asyncio.run(crowd())
+
+
+def test_a_game_goes_on_while_the_physics_is_taken(own_server, table_at):
+    """All threads of the physics simulate, and more requests wait for them; a player's stroke does not."""
+    server = own_server(POOLIAD_PHYSICS_THREADS="1")
+    table = table_at(server)
+    rows = SCENE | {"balls": {str(ball): [0.1 + 0.06 * ball, 0.5] for ball in range(16)}}
+    big = rows | {"shots": [shot | {"v": 9.0, "phi": 0.02 * n} for n, shot in enumerate(rows["shots"] * 10_000)]}
+    with ThreadPoolExecutor(4) as pool:
+        answers = [pool.submit(table.players[0].request, "POST", "/v1/simulate/batch", json=big) for _ in range(4)]
+        time.sleep(0.3)
+        table.play(3)
+        assert not all(answer.done() for answer in answers)
+        assert {answer.result().status_code for answer in answers} == {200}
