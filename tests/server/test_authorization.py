@@ -23,6 +23,8 @@ LET_IN = {
     "HEAD /readyz": PUBLIC,
     "GET /": PUBLIC,
     "GET /web/{name}": PUBLIC,
+    "GET /v1/keys": PUBLIC,
+    "POST /v1/matches/{match_id}/seed": PLAYERS,
     "POST /v1/agents": PUBLIC,
     "GET /v1/agents": PUBLIC,
     "GET /v1/agents/me": AGENTS,
