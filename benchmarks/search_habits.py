@@ -21,7 +21,7 @@ from referee import Call, Phase, Stroke
 from referee.play.local import PlayedGame
 
 SEED = 40
-GAMES = {0.0: 60, 1.0: 150, 5.0: 40}
+GAMES = {0.0: 20, 1.0: 60, 5.0: 12}
 """By level of noise, in a full run."""
 SHOTS = 4000
 TABLE = Table.olympiad()

@@ -58,11 +58,17 @@ def titles(first: str, second: str) -> tuple[str, str]:
 
 def _title(name: str) -> str:
     """A shipped agent's name with its options, another's class, a command's last word that is no option."""
+    if name.partition(":")[0] in SHIPPED:
+        return _allowed(name)
     if not name.startswith(STDIO):
-        return name if name.partition(":")[0] in SHIPPED else name.rpartition(":")[2]
+        return name.rpartition(":")[2]
     words = [word for word in name.removeprefix(STDIO).split() if not word.startswith("-")]
-    title = re.sub(r"[^A-Za-z0-9 _.-]", "-", Path(words[-1]).name if words else "").lstrip(" _.-")
-    return title[:60] or "command"
+    return _allowed(Path(words[-1]).name if words else "") or "command"
+
+
+def _allowed(title: str) -> str:
+    """A title in the letters that servers allow in names."""
+    return re.sub(r"[^A-Za-z0-9 _.-]", "-", title).lstrip(" _.-")[:60]
 
 
 def _options(name: str, text: str) -> dict[str, bool | int | float | str]:

@@ -7,6 +7,7 @@ import pytest
 
 import client
 import physics
+from client.agents.registry import titles
 from client.agents.search import SearchAgent
 from client.agents.search.breaks import best_break
 from client.agents.search.budget import Budget, Pace, allowance
@@ -218,6 +219,10 @@ def test_a_budget_of_seconds_learns_how_far_it_goes():
 def test_a_bad_option_is_named(name):
     with pytest.raises(AgentNotFound, match=name):
         client.load(name)
+
+
+def test_its_title_is_a_name_that_servers_allow():
+    assert titles("search:seconds=0.3", "search") == ("search-seconds-0.3", "search")
 
 
 def test_options_reach_the_agent():
