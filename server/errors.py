@@ -47,6 +47,10 @@ from referee.wire import PROBLEM_JSON, Fault, Problem, ProblemCode, shown
 log = logging.getLogger("pooliad.server")
 
 
+MOST_FAULTS = 20
+"""Faults that one problem lists: a body of a hundred thousand wrong fields gets no answer eight times its size."""
+
+
 class SettingsError(ValueError):
     """A setting the server cannot run with; the message names it, its value and what is allowed."""
 
@@ -246,8 +250,8 @@ def invalid_field(field: str, value: object, allowed: str) -> Invalid:
 
 
 def invalid_fields(error: ValidationError) -> Invalid:
-    """pydantic's findings as ours, one fault each."""
-    return Invalid([_fault(dict(found)) for found in error.errors(include_url=False)])
+    """pydantic's findings as ours, one fault each, the first of them when there are many."""
+    return Invalid([_fault(dict(found)) for found in error.errors(include_url=False)[:MOST_FAULTS]])
 
 
 def _fault(found: Mapping[str, Any]) -> Fault:

@@ -5,6 +5,7 @@ What a player checks afterwards is done here with nothing but the commitment it 
 
 import hashlib
 import json
+import sqlite3
 import time
 
 import pytest
@@ -209,3 +210,22 @@ def test_nothing_that_yields_noise_is_told_before_the_end(new_table, break_shot)
     secrets += [hashlib.sha256(bytes.fromhex(end[name])).hexdigest() for name in ("noise_secret", "rack_secret")]
     secrets.append(table.organiser.get(f"/v1/games/{game}").json()["noise_seed"])
     assert not [secret for secret in secrets for text in told if secret in text]
+
+
+def test_a_match_committed_to_another_engine_is_called_off_at_the_start(own_server, table_at):
+    """Its records would not be what was committed to; the record of the game that was on says how it ended."""
+    server = own_server()
+    table = table_at(server)
+    table.play(1)
+    game, other = table.game, table_at(server)
+    server.stop()
+    with sqlite3.connect(server.database) as connection:
+        connection.execute("update matches set engine = 'another' where id = ?", (table.match["id"],))
+    connection.close()
+    server.start()
+    assert server.request("GET", f"/v1/matches/{table.match['id']}").json()["status"] == "aborted"
+    assert other.is_running
+    record = server.request("GET", f"/v1/games/{game}/record").text.splitlines()
+    assert json.loads(record[-2])["outcome"]["reason"] == "aborted"
+    assert verify_record(record).ok
+    assert f"match {table.match['id']} is committed to another engine" in server.log
