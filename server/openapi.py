@@ -67,7 +67,18 @@ def _document(app: FastAPI) -> dict[str, Any]:
     for operations in made["paths"].values():
         for operation in operations.values():
             _drop_framework_errors(operation["responses"])
+            for parameter in operation.get("parameters", ()):
+                schema = parameter["schema"] = _without_null(parameter["schema"])
+                parameter["required"] = parameter["required"] or schema.get("minItems", 0) > 0
     return made
+
+
+def _without_null(schema: dict[str, Any]) -> dict[str, Any]:
+    """A parameter that may be left out is no parameter that may be null."""
+    kinds = [kind for kind in schema.get("anyOf", ()) if kind != {"type": "null"}]
+    if len(kinds) != 1:
+        return schema
+    return {**kinds[0], **{name: value for name, value in schema.items() if name != "anyOf"}}
 
 
 def _drop_framework_errors(responses: dict[str, Any]) -> None:

@@ -40,7 +40,10 @@ def listing(
     context: Server,
     after: Place,
     limit: Limit,
-    house: Annotated[str | None, Query(description="true: only house bots; false: all but them")] = None,
+    house: Annotated[
+        str | None,
+        Query(description="true: only house bots; false: all but them", json_schema_extra={"enum": ["true", "false"]}),
+    ] = None,
 ) -> AgentList:
     """Agents in order of registration."""
     return agents.listing(context, _flag("house", house), after, limit)

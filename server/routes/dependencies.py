@@ -6,6 +6,7 @@ from typing import Annotated
 from fastapi import Depends, Header, Query, Request, Response
 
 from server.errors import Unauthorized
+from server.routes.describe import NUMBER, PAGE_LIMIT, PLACE
 from server.security.callers import Caller, identify
 from server.security.tokens import bearer
 from server.services import pages
@@ -129,19 +130,25 @@ InHand = Depends(_in_hand)
 
 
 def _cursor(
-    cursor: Annotated[str | None, Query(description="`next_cursor` of the page before")] = None,
+    cursor: Annotated[
+        str | None, Query(description="`next_cursor` of the page before", json_schema_extra=NUMBER)
+    ] = None,
 ) -> int:
     return pages.cursor(cursor)
 
 
 def _place(
-    cursor: Annotated[str | None, Query(description="`next_cursor` of the page before")] = None,
+    cursor: Annotated[
+        str | None, Query(description="`next_cursor` of the page before", json_schema_extra=PLACE)
+    ] = None,
 ) -> pages.Place | None:
     return pages.place(cursor)
 
 
 def _limit(
-    limit: Annotated[str | None, Query(description="rows a page, 1 to 200; 50 unless told")] = None,
+    limit: Annotated[
+        str | None, Query(description="rows a page, 1 to 200; 50 unless told", json_schema_extra=PAGE_LIMIT)
+    ] = None,
 ) -> int:
     return pages.limit(limit)
 

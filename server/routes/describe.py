@@ -4,7 +4,7 @@ Bodies are not the framework's to read: token, ownership, repetition and version
 """
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Final
 
 from pydantic import BaseModel
 
@@ -24,11 +24,27 @@ from server.errors import (
     Unauthorized,
     UnsupportedMediaType,
 )
+from server.services.commands import LONGEST_KEY
+from server.services.pages import LONGEST_NUMBER
 
 TOKEN_SCHEME = "token"
 BODY_PROBLEMS = (NotJson, SlowBody, TooLarge, UnsupportedMediaType, Invalid)
 KEY_PROBLEMS = (BadHeader, KeyReused)
 OWNED = (Forbidden, NotFound)
+
+NUMBER: Final[dict[str, Any]] = {"pattern": f"^[0-9]{{1,{LONGEST_NUMBER}}}$"}
+PLACE: Final[dict[str, Any]] = {"pattern": r"^(0|[0-9]{1,18}\.[ -~]{1,64})$"}
+PAGE_LIMIT: Final[dict[str, Any]] = {"pattern": "^(0{0,2}[1-9]|0?[1-9][0-9]|1[0-9]{2}|200)$"}
+KEY: Final[dict[str, Any]] = {"type": "string", "pattern": f"^[!-~]([ -~]{{0,{LONGEST_KEY - 2}}}[!-~])?$"}
+VERSION: Final[dict[str, Any]] = {"type": "string", "pattern": '^("[0-9]{1,15}"|[0-9]{1,15})$'}
+
+EVENT_STREAM: Final = "text/event-stream"
+TEXT: Final[dict[str, Any]] = {"type": "string"}
+EVENT: Final[dict[str, Any]] = {
+    "type": "object",
+    "properties": {"id": TEXT, "event": TEXT, "data": TEXT, "retry": {"type": "integer"}},
+}
+"""One event of a stream; `data` is a message in JSON."""
 
 Described = dict[str, Any]
 
@@ -85,7 +101,7 @@ def _success(answer: Any) -> dict[str, Any]:
     if isinstance(answer, str):
         return {
             "description": "Success",
-            "content": {answer: {"schema": {"type": "string"}}} if answer else {},
+            "content": {answer: {"schema": EVENT if answer == EVENT_STREAM else TEXT}} if answer else {},
         }
     return {"description": "Success", "model": answer}
 
@@ -106,19 +122,19 @@ def _headers(key: bool, version: bool) -> list[dict[str, Any]]:
     headers = []
     if key:
         headers.append(
-            _header("Idempotency-Key", "6a1f0c52-7f0e-4d43-9c1b-5b2f3f0f7f11", "a name of the request's own")
+            _header("Idempotency-Key", KEY, "6a1f0c52-7f0e-4d43-9c1b-5b2f3f0f7f11", "a name of the request's own")
         )
     if version:
-        headers.append(_header("If-Match", '"1"', "the version of the view that the request answers"))
+        headers.append(_header("If-Match", VERSION, '"1"', "the version of the view that the request answers"))
     return headers
 
 
-def _header(name: str, example: str, description: str) -> dict[str, Any]:
+def _header(name: str, schema: dict[str, Any], example: str, description: str) -> dict[str, Any]:
     return {
         "name": name,
         "in": "header",
         "required": True,
         "description": description,
-        "schema": {"type": "string"},
+        "schema": schema,
         "example": example,
     }

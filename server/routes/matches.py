@@ -34,7 +34,12 @@ def listing(
     after: Place,
     limit: Limit,
     agent: Annotated[str | None, Query(description="only this agent's")] = None,
-    status: Annotated[str | None, Query(description="challenged, running, finished or aborted")] = None,
+    status: Annotated[
+        str | None,
+        Query(
+            description="challenged, running, finished or aborted", json_schema_extra={"enum": list(matches.STATUSES)}
+        ),
+    ] = None,
 ) -> MatchList:
     """An agent finds the challenges it may accept with `?agent=ID&status=challenged`."""
     return matches.listing(context, agent, status, after, limit)

@@ -1,22 +1,22 @@
 """Server-sent events for spectators."""
 
 from collections.abc import AsyncIterator
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Depends, Header, Query, Request, Response
 from fastapi.sse import EventSourceResponse
 
 from server.errors import BadHeader, Draining, Invalid, NotFound, Unauthorized, invalid_field
 from server.routes.dependencies import ANYBODY, Server
-from server.routes.describe import describe
+from server.routes.describe import EVENT_STREAM, NUMBER, describe
 from server.services import pages
 from server.services.spectators import Spectators
 
 router = APIRouter(prefix="/v1", tags=["streams"])
 
-EVENT_STREAM: Final = "text/event-stream"
 MOST_GAMES: Final = 64
 """Games one stream may carry."""
+SOME_GAMES: Final[dict[str, Any]] = {"minItems": 1, "maxItems": MOST_GAMES}
 
 
 def _spectators(request: Request, context: Server) -> Spectators:
@@ -38,8 +38,12 @@ Watching = Annotated[Spectators, Depends(_spectators)]
 async def watch_game(
     game_id: str,
     spectators: Watching,
-    after: Annotated[str | None, Query(description="the id of the last event one has")] = None,
-    last_event_id: Annotated[str | None, Header(description="the same, as browsers send it")] = None,
+    after: Annotated[
+        str | None, Query(description="the id of the last event one has", json_schema_extra=NUMBER)
+    ] = None,
+    last_event_id: Annotated[
+        str | None, Header(description="the same, as browsers send it", json_schema_extra=NUMBER)
+    ] = None,
 ) -> Response:
     """How the game stands, its strokes so far (after the given one), then everything as it happens."""
     return _streamed(await spectators.watch_one(game_id, _sequence(last_event_id, after)))
@@ -53,7 +57,7 @@ async def watch_game(
 )
 async def watch_games(
     spectators: Watching,
-    game: Annotated[list[str] | None, Query(description="ids of games, 1 to 64")] = None,
+    game: Annotated[list[str] | None, Query(description="ids of games, 1 to 64", json_schema_extra=SOME_GAMES)] = None,
 ) -> Response:
     """How each of them stands, then everything as it happens; every event says which game it is about."""
     games = list(dict.fromkeys(game or ()))
@@ -64,8 +68,9 @@ async def watch_games(
 
 def _sequence(header: str | None, query: str | None) -> int:
     """The id of the last event the caller has; 0 for none. The header, the later news, goes before the address."""
+    after = pages.number("after", query, "the id of an event")
     if header is None:
-        return pages.number("after", query, "the id of an event")
+        return after
     if not (header.isascii() and header.isdigit() and len(header) <= pages.LONGEST_NUMBER):
         raise BadHeader("Last-Event-ID is no event's id", field="Last-Event-ID", value=header, allowed="digits")
     return int(header)

@@ -1,6 +1,6 @@
 """The long poll."""
 
-from typing import Annotated
+from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Query, Request, Response
 
@@ -9,6 +9,8 @@ from server.errors import Forbidden, Invalid, invalid_field
 from server.routes.dependencies import Authenticated, Server
 from server.routes.describe import describe
 from server.services.turns import wait_for_message
+
+WAIT: Final[dict[str, Any]] = {"type": "number", "minimum": 0, "maximum": 60, "default": 0, "examples": [30]}
 
 router = APIRouter(prefix="/v1/turns", tags=["turns"])
 
@@ -22,7 +24,9 @@ async def next_message(
     context: Server,
     caller: Authenticated,
     request: Request,
-    wait: Annotated[str, Query(description="seconds to wait for a message, 0 to 60", examples=["30"])] = "0",
+    wait: Annotated[
+        str, Query(description="seconds to wait for a message, 0 to 60", examples=["30"], json_schema_extra=WAIT)
+    ] = "0",
 ) -> Response:
     """`turn` (until it is played), `game_over` or `match_over` (once each); 204 when there is none."""
     seconds = _seconds(wait, context.settings.longest_wait)
