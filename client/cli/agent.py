@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from client.cli.check import check
 from client.cli.output import USAGE, Json, emit, fail, say
 from client.cli.players import load_player
 
@@ -23,6 +24,7 @@ def commands() -> typer.Typer:
     app = typer.Typer(help="Run agents.", no_args_is_help=True)
     app.command("run")(run)
     app.command("spar")(spar)
+    app.command("check")(check)
     return app
 
 

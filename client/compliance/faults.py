@@ -1,0 +1,122 @@
+"""What an agent did wrong, by name, read off what it said in a situation."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from enum import StrEnum
+from typing import Any
+
+from client.compliance.proxy import RETRY_AFTER, Exchange
+from client.compliance.situations import Situation, Twist
+
+MOST_POLLS = 20
+"""Empty answers to polls in one second; more is a busy loop and no long poll."""
+SHOWN = 300
+"""Characters of an answer that a fault repeats."""
+
+
+class FaultName(StrEnum):
+    """Everything that can be wrong."""
+
+    CRASHES = "crashes"
+    SILENT = "silent"
+    LATE = "late"
+    MALFORMED = "malformed"
+    REFUSED = "refused"
+    CONCEDES = "concedes"
+    NO_VERSION = "no-version"
+    STALE = "stale"
+    NO_KEY = "no-key"
+    KEY_REUSED = "key-reused"
+    NOT_YOUR_TURN = "not-your-turn"
+    ACTS_AFTER_END = "acts-after-end"
+    GIVES_UP = "gives-up"
+    IMPATIENT = "impatient"
+    HAMMERS = "hammers"
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One thing done wrong: its name, the situation's name, and what was seen, in words."""
+
+    name: FaultName
+    situation: str
+    words: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values."""
+        return asdict(self) | {"name": self.name.value}
+
+
+_BY_CODE = {
+    "version_required": FaultName.NO_VERSION,
+    "stale_version": FaultName.STALE,
+    "key_reused": FaultName.KEY_REUSED,
+    "not_your_turn": FaultName.NOT_YOUR_TURN,
+    "game_finished": FaultName.ACTS_AFTER_END,
+    "out_of_time": FaultName.LATE,
+    "refused": FaultName.REFUSED,
+    "invalid": FaultName.MALFORMED,
+    "not_json": FaultName.MALFORMED,
+    "unsupported_media_type": FaultName.MALFORMED,
+    "too_large": FaultName.MALFORMED,
+    "slow_body": FaultName.MALFORMED,
+}
+
+
+def in_traffic(situation: Situation, seen: Sequence[Exchange]) -> Iterator[Fault]:
+    """The faults that the exchanges of one situation show, each name once."""
+    found = {fault.name: fault for fault in reversed(list(_all(situation, seen)))}
+    yield from found.values()
+
+
+def _all(situation: Situation, seen: Sequence[Exchange]) -> Iterator[Fault]:
+    actions = [one for one in seen if one.is_action]
+    for one in actions:
+        name = _named(situation, one, seen)
+        if name is not None:
+            yield Fault(name, situation.name, f"{one.path}: {one.status} {one.answer.decode(errors='replace')[:SHOWN]}")
+        if one.path.endswith("/concede") or b'"concede"' in one.body:
+            yield Fault(FaultName.CONCEDES, situation.name, "the game is not lost")
+    yield from _reactions(situation, seen, actions)
+    if _is_hammering(seen):
+        yield Fault(FaultName.HAMMERS, situation.name, f"over {MOST_POLLS} empty polls in a second; use ?wait=30")
+
+
+def _named(situation: Situation, one: Exchange, seen: Sequence[Exchange]) -> FaultName | None:
+    """The fault behind a problem that the server, not the proxy, answered with."""
+    if one.twisted or one.code is None:
+        return None
+    if one.code == "bad_header":
+        return FaultName.NO_KEY if "idempotency-key" not in one.headers else FaultName.MALFORMED
+    if one.code == "stale_version" and situation.twist is Twist.LOST_REPLY:
+        return None  # asking again with another key is clumsy, but nothing is played twice
+    if one.code == "game_finished" and not _knew_the_end(one, seen):
+        return None  # the game was ended while it was thinking
+    return _BY_CODE.get(one.code)
+
+
+def _knew_the_end(action: Exchange, seen: Sequence[Exchange]) -> bool:
+    """Whether the agent had been told before it acted that this game was over."""
+    news = (one for one in seen if one.path == "/v1/turns" and one.done < action.at)
+    return any(b'"game_over"' in one.answer[:40] and action.game.encode() in one.answer[:200] for one in news)
+
+
+def _reactions(situation: Situation, seen: Sequence[Exchange], actions: Sequence[Exchange]) -> Iterator[Fault]:
+    """What the agent did after its first action was twisted."""
+    first = next((one for one in actions if one.twisted), None)
+    if first is None:
+        return
+    later = [one for one in seen if one.at >= first.done]
+    if situation.twist is Twist.LOST_REPLY and not later:
+        yield Fault(FaultName.GIVES_UP, situation.name, "after a lost reply nothing more was heard of it")
+    hasty = [one for one in later if one.is_action and one.at - first.done < 0.9 * RETRY_AFTER]
+    if situation.twist is Twist.DRAINING and hasty:
+        waited = hasty[0].at - first.done
+        yield Fault(
+            FaultName.IMPATIENT, situation.name, f"asked again after {waited:.2f} s; Retry-After was {RETRY_AFTER} s"
+        )
+
+
+def _is_hammering(seen: Sequence[Exchange]) -> bool:
+    empty = [one.at for one in seen if one.path == "/v1/turns" and one.status == 204]
+    return any(later - earlier < 1.0 for earlier, later in zip(empty, empty[MOST_POLLS:], strict=False))

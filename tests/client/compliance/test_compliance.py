@@ -1,0 +1,111 @@
+"""`pooliad agent check`: every bad agent is caught by the name of its fault, good ones pass."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from support.require import require
+
+from client.compliance import SITUATIONS, Checker, FaultName
+from client.compliance.situations import Twist
+
+BAD = Path(__file__).parent / "bad_agents.py"
+BY_NAME = {situation.name: situation for situation in SITUATIONS}
+
+WHERE = {
+    "silent": replace(BY_NAME["open table"], seconds=6.0),
+    "late": replace(BY_NAME["low clock"], seconds=2.0),
+    "crashes": BY_NAME["open table"],
+    "malformed": BY_NAME["open table"],
+    "refused": BY_NAME["groups"],
+    "concedes": BY_NAME["open table"],
+    "no-version": BY_NAME["open table"],
+    "stale": BY_NAME["open table"],
+    "no-key": BY_NAME["open table"],
+    "key-reused": BY_NAME["open table"],
+    "not-your-turn": BY_NAME["reconnect"],
+    "acts-after-end": BY_NAME["game over"],
+    "gives-up": BY_NAME["lost reply"],
+    "impatient": BY_NAME["draining"],
+    "hammers": BY_NAME["game over"],
+}
+"""In which situation each fault shows."""
+
+
+def checked(hall, tmp_path, command, situations):
+    checker = Checker(hall.url, hall.organiser_token, command, tmp_path)
+    return checker.run(situations)
+
+
+def test_every_fault_has_a_bad_agent():
+    assert set(WHERE) == {name.value for name in FaultName}
+
+
+@pytest.mark.parametrize("fault", sorted(WHERE))
+def test_a_bad_agent_is_caught_by_name(hall, tmp_path, fault):
+    (report,) = checked(hall, tmp_path, [sys.executable, str(BAD), fault], [WHERE[fault]])
+    assert fault in {found.name.value for found in report.faults}, report
+
+
+def test_the_same_agent_without_a_fault_passes(hall, tmp_path):
+    """Else the bad ones might be caught for something else."""
+    situations = list(
+        {each.name: each for each in (*WHERE.values(), BY_NAME["refused"], BY_NAME["new fields"])}.values()
+    )
+    reports = checked(hall, tmp_path, [sys.executable, str(BAD), "none"], situations)
+    assert [fault for report in reports for fault in report.faults] == []
+
+
+def test_a_shipped_agent_passes_everything(server_installed):
+    command = [sys.executable, "-m", "client.cli", "agent", "check", "random", "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    report = json.loads(done.stdout)
+    assert [each["situation"] for each in report["situations"]] == list(BY_NAME)
+    assert (done.returncode, report["ok"]) == (0, True), done.stdout
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("agent", ["greedy", "search", "stdio:perl examples/perl/straight.pl"])
+def test_the_other_agents_pass_everything(server_installed, agent):
+    found = subprocess.run(["perl", "-MJSON::PP", "-e1"], capture_output=True)
+    require(found.returncode == 0, "perl with JSON::PP")
+    command = [sys.executable, "-m", "client.cli", "agent", "check", agent, "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=900)
+    assert done.returncode == 0, done.stdout
+
+
+def test_the_command_says_what_is_wrong_and_leaves_with_one(server_installed):
+    bad = f"{sys.executable} {BAD} refused"
+    command = [sys.executable, "-m", "client.cli", "agent", "check", "--command", bad, "--only", "groups"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 1
+    assert "refused: /v1/games/" in done.stdout
+    assert "R23" in done.stdout
+    assert "1 situations, 1 faults" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        [],
+        ["random", "--command", "x"],
+        ["nobody"],
+        ["random", "--only", "a draw"],
+        ["--command", '"'],
+        ["--command", ""],
+    ],
+)
+def test_usage_is_explained(options):
+    command = [sys.executable, "-m", "client.cli", "agent", "check", *options]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "Traceback" not in done.stderr
+
+
+def test_every_decision_and_every_twist_is_among_the_situations():
+    choices = {each.start.choice for each in SITUATIONS if each.start is not None}
+    assert {"R12", "R12a", "R13", "R14", "R16", "R17"} <= choices
+    assert {each.twist for each in SITUATIONS} == set(Twist)
