@@ -18,8 +18,8 @@ from referee.wire import AgentToken, ClockTerms, MatchRequest, MatchView, NoiseT
 
 LOOK_EVERY = 0.05
 """Seconds between looks at what has happened."""
-AFTERWARDS = 3.0
-"""Seconds an agent is watched after its action: what it does after a lost reply, or when the game is over."""
+BRIEFLY, AFTERWARDS = 0.5, 3.0
+"""Seconds an agent is watched after its action; longer where it is about a lost reply, or the end of the game."""
 MARGIN = 15.0
 """Seconds beyond the clock within which a game must be over by itself."""
 HURRY = 5.0
@@ -99,7 +99,7 @@ class Checker:
         accepted = self._await_action(situation, organiser, proxy, match)
         if accepted is not None:
             self._finish(situation, organiser, match, players[0])
-            self._watch(proxy, accepted)
+            self._watch(situation, proxy, accepted)
         faults = [*in_traffic(situation, proxy.seen()), *self._missing(situation, organiser, match, accepted, proxy)]
         _call_off(organiser, match)
         if any(fault.name in (FaultName.SILENT, FaultName.LATE, FaultName.CRASHES) for fault in faults):
@@ -143,9 +143,10 @@ class Checker:
                     return
         _call_off(organiser, match)
 
-    def _watch(self, proxy: Proxy, accepted: Exchange) -> None:
-        """See what it does now: until it asks for its next turn and a little longer, or the time is over."""
-        end = time.monotonic() + AFTERWARDS
+    def _watch(self, situation: Situation, proxy: Proxy, accepted: Exchange) -> None:
+        """See what it does now: until it has asked for its next turn a few times, or the time is over."""
+        long = situation.ends or situation.twist is not Twist.NONE
+        end = time.monotonic() + (AFTERWARDS if long else BRIEFLY)
         while time.monotonic() < end:
             polls = [one for one in proxy.seen() if one.path == "/v1/turns" and one.at > accepted.done]
             if len(polls) > 2 and not self._crashed:
