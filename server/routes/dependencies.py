@@ -20,10 +20,15 @@ def context_of(request: Request) -> Context:
     return context
 
 
-Server = Annotated[Context, Depends(context_of)]
+async def _server(request: Request) -> Context:
+    """What takes no time is done on the loop: to hand it to a thread would take longer."""
+    return context_of(request)
 
 
-def _token(authorization: Annotated[str | None, Header(include_in_schema=False)] = None) -> str | None:
+Server = Annotated[Context, Depends(_server)]
+
+
+async def _token(authorization: Annotated[str | None, Header(include_in_schema=False)] = None) -> str | None:
     return bearer(authorization)
 
 
@@ -79,7 +84,7 @@ ANYBODY = Depends(_reader)
 """The same for an endpoint that shows everybody the same."""
 
 
-def _body(request: Request) -> bytes:
+async def _body(request: Request) -> bytes:
     body: bytes = request.state.body
     return body
 
@@ -88,7 +93,7 @@ Body = Annotated[bytes, Depends(_body)]
 ContentType = Annotated[str | None, Header(include_in_schema=False)]
 
 
-def _command(
+async def _command(
     request: Request,
     caller: Authenticated,
     body: Body,
@@ -129,7 +134,7 @@ async def _in_hand(game_id: str, request: Request) -> AsyncIterator[None]:
 InHand = Depends(_in_hand)
 
 
-def _cursor(
+async def _cursor(
     cursor: Annotated[
         str | None, Query(description="`next_cursor` of the page before", json_schema_extra=NUMBER)
     ] = None,
@@ -137,7 +142,7 @@ def _cursor(
     return pages.cursor(cursor)
 
 
-def _place(
+async def _place(
     cursor: Annotated[
         str | None, Query(description="`next_cursor` of the page before", json_schema_extra=PLACE)
     ] = None,
@@ -145,7 +150,7 @@ def _place(
     return pages.place(cursor)
 
 
-def _limit(
+async def _limit(
     limit: Annotated[
         str | None, Query(description="rows a page, 1 to 200; 50 unless told", json_schema_extra=PAGE_LIMIT)
     ] = None,

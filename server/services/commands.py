@@ -4,11 +4,11 @@ import hashlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from email.message import Message as Headers
-from typing import TypeVar
+from typing import Final, TypeVar
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import from_json
-from sqlalchemy import Connection, insert, select
+from sqlalchemy import Connection, bindparam, insert, select
 
 from server.errors import BadHeader, KeyReused, NotJson, UnsupportedMediaType, invalid_fields
 from server.security.callers import Caller
@@ -82,17 +82,16 @@ def _require_json(content_type: str | None) -> None:
         )
 
 
+_STORED: Final = select(answers).where(*(column == bindparam(column.name) for column in answers.primary_key))
+
+
 def recall(connection: Connection, command: Command) -> Answer | None:
     """The stored answer if this command was carried out before.
 
     Raises `BadHeader` without a usable Idempotency-Key and `KeyReused` when the key came with another body.
     """
     row = connection.execute(
-        select(answers).where(
-            answers.c.caller == command.caller.id,
-            answers.c.route == command.route,
-            answers.c.key == _key(command),
-        )
+        _STORED, {"caller": command.caller.id, "route": command.route, "key": _key(command)}
     ).one_or_none()
     if row is None:
         return None
@@ -115,7 +114,7 @@ def keep(connection: Connection, command: Command, answer: Answer) -> None:
         "body": answer.body,
         "created_at": command.arrived,
     }
-    connection.execute(insert(answers).values(row))
+    connection.execute(insert(answers), row)
 
 
 def once(connection: Connection, command: Command, act: Callable[[], Answer]) -> Answer:

@@ -5,9 +5,9 @@ Everything here runs in the transaction of whatever caused it.
 
 import secrets
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Final
 
-from sqlalchemy import Connection, Row, func, insert, select, update
+from sqlalchemy import Connection, Row, bindparam, func, insert, select, update
 
 from referee.game import EndReason, Game
 from referee.play import Charge
@@ -16,7 +16,7 @@ from server.errors import StaleVersion
 from server.security import keys
 from server.services import draws, notices, turn_clock
 from server.services.context import Writing
-from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of
+from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of, stored
 from server.store.tables import charges, games, matches, moves
 
 FIRST_VERSION = 1
@@ -164,15 +164,20 @@ def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, values: d
         "version": live.row.version + 1,
         f"used_{seat}": live.clocks.used_ns[seat] + charge.charged_ns,
         f"lag_{seat}": live.granted[seat] + charge.lag_ns,
-        f"simulated_{seat}": games.c[f"simulated_{seat}"] + end.simulated,
+        f"simulated_{seat}": (live.row.simulated_0, live.row.simulated_1)[seat] + end.simulated,
         f"present_{seat}": live.is_present[seat] or end.move is not None,
     } | values
-    seen = (games.c.id == live.id) & (games.c.version == live.row.version)
-    if writing.connection.execute(update(games).where(seen).values(values)).rowcount != 1:
+    seen = {"seen_id": live.id, "seen_version": live.row.version}
+    if writing.connection.execute(_IF_UNCHANGED, values | seen).rowcount != 1:
         raise StaleVersion("the game moved on in the meantime")
     row = {"game_id": live.id, "seat": seat, "move": end.move, "measured": charge.measured_ns, "lag": charge.lag_ns}
-    writing.connection.execute(insert(charges).values(row | {"created_at": writing.now}))
-    return find(writing.connection, live.id)
+    writing.connection.execute(insert(charges), row | {"created_at": writing.now})
+    return stored(writing.connection, live, game)
+
+
+_IF_UNCHANGED: Final = update(games).where(
+    games.c.id == bindparam("seen_id"), games.c.version == bindparam("seen_version")
+)
 
 
 def _count_moves(connection: Connection, game_id: str) -> int:

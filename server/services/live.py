@@ -1,10 +1,10 @@
 """A game as the database has it: its rows, read into the referee's values and shown as messages."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
-from sqlalchemy import Connection, Row, select
+from sqlalchemy import Connection, Row, Select, bindparam, func, select
 
 from physics import Table
 from referee.game import Game
@@ -170,18 +170,29 @@ class LiveGame:
         )
 
 
+_GAME: Final = select(games).where(games.c.id == bindparam("id"))
+_FIRST, _SECOND = agents.alias(), agents.alias()
+_MATCH: Final = (
+    select(matches, _FIRST.c.name.label("name_0"), _SECOND.c.name.label("name_1"))
+    .join(_FIRST, _FIRST.c.id == matches.c.seat_0)
+    .join(_SECOND, _SECOND.c.id == matches.c.seat_1)
+    .where(matches.c.id == bindparam("id"))
+)
+"""Made once: to put a statement together takes longer than to carry it out."""
+
+
 def find(connection: Connection, game_id: str) -> LiveGame:
     """The game with this id; raises `NotFound`."""
-    row = connection.execute(select(games).where(games.c.id == game_id)).one_or_none()
+    row = connection.execute(_GAME, {"id": game_id}).one_or_none()
     if row is None:
         raise NotFound(f"there is no game {game_id}")
-    match = find_match(connection, row.match_id)
+    match = connection.execute(_MATCH, {"id": row.match_id}).one()
     return LiveGame(
         row=row,
         match=match,
         game=Game.from_dict(row.state),
-        players=player_names(connection, match),
-        score=score_of(connection, match.id),
+        players=(match.name_0, match.name_1),
+        score=score_of(connection, match.id) if row.number else (0.0, 0.0),
     )
 
 
@@ -189,6 +200,18 @@ def hold(connection: Connection, game_id: str) -> LiveGame:
     """The same, to be written: nobody else writes the match until the transaction ends."""
     locks.hold_match_of(connection, game_id)
     return find(connection, game_id)
+
+
+def hold_seen(connection: Connection, seen: LiveGame) -> LiveGame:
+    """The same for a game that was read before: what cannot have changed without its version is not read again."""
+    locks.hold_match_of(connection, seen.id)
+    row = connection.execute(_GAME, {"id": seen.id}).one()
+    return replace(seen, row=row) if row.version == seen.row.version else find(connection, seen.id)
+
+
+def stored(connection: Connection, before: LiveGame, game: Game) -> LiveGame:
+    """A game whose move this transaction has stored."""
+    return replace(before, row=connection.execute(_GAME, {"id": before.id}).one(), game=game)
 
 
 def find_match(connection: Connection, match_id: str) -> Row[Any]:
@@ -224,13 +247,19 @@ def score_of(connection: Connection, match_id: str) -> tuple[float, float]:
 
 def strokes_since(connection: Connection, game_id: str, seat: int | None) -> Sequence[StrokeView]:
     """The seat's own last stroke and what followed; for a spectator the last stroke."""
-    ours = moves.c.game_id == game_id
-    last = select(moves.c.number).where(ours).order_by(moves.c.number.desc()).limit(1)
-    if seat is not None:
-        last = last.where(moves.c.seat == seat)
-    first = connection.scalar(last) or 0
-    rows = connection.scalars(select(moves.c.stroke).where(ours, moves.c.number >= first).order_by(moves.c.number))
+    rows = connection.scalars(_SINCE_LAST if seat is None else _SINCE_OWN, {"game": game_id, "seat": seat})
     return tuple(StrokeView.model_validate(stroke) for stroke in rows)
+
+
+def _strokes_since(last: Select[Any]) -> Select[Any]:
+    first = func.coalesce(last.order_by(moves.c.number.desc()).limit(1).scalar_subquery(), 0)
+    since = select(moves.c.stroke).where(moves.c.game_id == bindparam("game"), moves.c.number >= first)
+    return since.order_by(moves.c.number)
+
+
+_LAST: Final = select(moves.c.number).where(moves.c.game_id == bindparam("game"))
+_SINCE_LAST: Final = _strokes_since(_LAST)
+_SINCE_OWN: Final = _strokes_since(_LAST.where(moves.c.seat == bindparam("seat")))
 
 
 def noise_view(match: Row[Any]) -> NoiseView:

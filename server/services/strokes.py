@@ -19,7 +19,7 @@ from server.security.callers import Caller
 from server.services import games, simulations
 from server.services.commands import Answer, Command, keep, parse, recall
 from server.services.context import Context, Writing
-from server.services.live import LiveGame, find, hold
+from server.services.live import LiveGame, find, hold_seen
 from server.store.tables import games as game_rows
 from server.store.tables import moves
 
@@ -63,7 +63,7 @@ def _act(context: Context, game_id: str, command: Command, read: Callable[[], _A
     asked, stroke = _played(live, read)
     context.failpoint("shot-simulated")
     with context.writing() as writing:
-        live = hold(writing.connection, game_id)
+        live = hold_seen(writing.connection, live)
         if stored := recall(writing.connection, command):
             return stored
         _require_turn(writing.connection, live, seat, command)
@@ -155,7 +155,7 @@ def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd
         "stroke": detail.model_dump(mode="json", exclude={"events"}),
         "line": chain.add(stroke_entry(stroke, number, end.charge.charged_ns)),
     }
-    writing.connection.execute(insert(moves).values(move | {"created_at": writing.now}))
+    writing.connection.execute(insert(moves), move | {"created_at": writing.now})
     writing.context.failpoint("shot-moved")
     live = games.advance(writing, live, stroke.game, end, chain)
     writing.context.failpoint("shot-advanced")
