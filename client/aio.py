@@ -18,6 +18,7 @@ from referee.wire import (
     AgentView,
     BatchAnswer,
     ClockLedger,
+    DisqualifyRequest,
     GameAnswer,
     KeyList,
     MatchList,
@@ -26,7 +27,13 @@ from referee.wire import (
     MinElevationAnswer,
     ShotsPage,
     SimulateAnswer,
+    StandingsView,
     StrokeAnswer,
+    TournamentList,
+    TournamentRequest,
+    TournamentStatus,
+    TournamentView,
+    VoidRequest,
 )
 from referee.wire.clocks import SupervisorsReason
 from referee.wire.matches import MatchStatus
@@ -114,6 +121,28 @@ class AsyncPooliad:
     async def abort(self, match_id: str) -> MatchView:
         """Stop a match."""
         return await self._send(calls.abort(match_id))
+
+    async def create_tournament(self, request: TournamentRequest) -> TournamentView:
+        """Make a tournament; its first matches begin when it is started."""
+        return await self._send(calls.create_tournament(request))
+
+    async def tournaments(self, cursor: str | None = None, *, status: TournamentStatus | None = None) -> TournamentList:
+        """One page of the tournaments, the newest first; of one status when asked for."""
+        return await self._send(calls.tournaments(cursor, status))
+
+    async def tournament(self, tournament_id: str) -> TournamentView:
+        """A tournament with its games."""
+        return await self._send(calls.tournament(tournament_id))
+
+    async def standings(self, tournament_id: str) -> StandingsView:
+        """How a tournament's entrants stand."""
+        return await self._send(calls.standings(tournament_id))
+
+    async def direct_tournament(
+        self, tournament_id: str, act: calls.Act, request: VoidRequest | DisqualifyRequest | None = None
+    ) -> TournamentView:
+        """Start (or go on after a pause), pause or abort a tournament, take a game or an entrant out of it."""
+        return await self._send(calls.direct_tournament(tournament_id, act, request))
 
     async def turns(self, wait: float = 30.0) -> TurnMessage | None:
         """Wait up to `wait` seconds for the caller's next message; None when there is none."""

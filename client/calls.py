@@ -8,7 +8,7 @@ not be repeated.
 
 import uuid
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 import httpx2
 from pydantic import BaseModel
@@ -27,6 +27,7 @@ from referee.wire import (
     ClientSeedRequest,
     ClockLedger,
     DecisionRequest,
+    DisqualifyRequest,
     ForfeitRequest,
     GameAnswer,
     GameOver,
@@ -43,11 +44,20 @@ from referee.wire import (
     ShotsPage,
     SimulateAnswer,
     SimulateRequest,
+    StandingsView,
     StrokeAnswer,
+    TournamentList,
+    TournamentRequest,
+    TournamentStatus,
+    TournamentView,
     Turn,
+    VoidRequest,
 )
 from referee.wire.clocks import SupervisorsReason
 from referee.wire.matches import MatchStatus
+
+Act = Literal["start", "pause", "abort", "void", "disqualify"]
+"""What an organiser does about a tournament."""
 
 Model = TypeVar("Model", bound=BaseModel)
 TurnMessage = Turn | SeedWanted | GameOver | MatchOver
@@ -124,6 +134,35 @@ def keys() -> Call[KeyList]:
 def abort(match_id: str) -> Call[MatchView]:
     """Stop a match."""
     return Call("POST", f"/v1/matches/{match_id}/abort", _reader(MatchView), headers=_key())
+
+
+def create_tournament(request: TournamentRequest) -> Call[TournamentView]:
+    """Make a tournament."""
+    return Call("POST", "/v1/tournaments", _reader(TournamentView), headers=_key(), body=_json(request))
+
+
+def tournaments(cursor: str | None = None, status: TournamentStatus | None = None) -> Call[TournamentList]:
+    """One page of the tournaments, the newest first; of one status when asked for."""
+    params = _cursor(cursor) | ({} if status is None else {"status": status})
+    return Call("GET", "/v1/tournaments", _reader(TournamentList), params=params)
+
+
+def tournament(tournament_id: str) -> Call[TournamentView]:
+    """A tournament with its games."""
+    return Call("GET", f"/v1/tournaments/{tournament_id}", _reader(TournamentView))
+
+
+def standings(tournament_id: str) -> Call[StandingsView]:
+    """How a tournament's entrants stand."""
+    return Call("GET", f"/v1/tournaments/{tournament_id}/standings", _reader(StandingsView))
+
+
+def direct_tournament(
+    tournament_id: str, act: Act, request: VoidRequest | DisqualifyRequest | None = None
+) -> Call[TournamentView]:
+    """Start, pause or abort a tournament, take a game or an entrant out of it."""
+    body = {} if request is None else {"body": _json(request)}
+    return Call("POST", f"/v1/tournaments/{tournament_id}/{act}", _reader(TournamentView), headers=_key(), **body)
 
 
 def turns(wait: float) -> Call[TurnMessage | None]:

@@ -7,6 +7,7 @@
     ├── UnexpectedAnswer        an answer that is not of this protocol
     ├── AgentNotFound           no agent of this name, no such import path
     ├── AgentFailed             the command of an agent left, was silent, or answered nonsense
+    │   └── NonsenseAnswer      the last of these
     └── ApiError                the server answered with a problem
         ├── BadRequest          400
         │   ├── NotJson
@@ -83,6 +84,10 @@ class AgentNotFound(PooliadError):
 
 class AgentFailed(PooliadError):
     """The command of an agent cannot be started, left, gave no answer in time, or answered nonsense."""
+
+
+class NonsenseAnswer(AgentFailed):
+    """An agent that is a command answered, but with a line that is no action."""
 
 
 class ApiError(PooliadError):

@@ -13,7 +13,7 @@ from server.errors import ServerError, handle_fault, handle_framework_error, han
 from server.routes import ROUTERS
 from server.security import keys
 from server.security.body_gate import BodyGate
-from server.services import warmup
+from server.services import events, warmup
 from server.services.context import Context
 from server.services.heartbeat import Heartbeat
 from server.services.house_bots import House
@@ -33,7 +33,12 @@ gets the stored answer. Errors are RFC 9457 problem details with a stable `code`
 
 def create_app(settings: Settings) -> FastAPI:
     """The server as an ASGI application; its database is opened and brought up to date when it starts."""
-    context = Context(settings, Database(settings.database), failpoint=failpoints.parse(settings.failpoint))
+    context = Context(
+        settings,
+        Database(settings.database),
+        failpoint=failpoints.parse(settings.failpoint),
+        match_over=events.match_over,
+    )
     app = FastAPI(
         title="Pooliad",
         version=version("pooliad"),

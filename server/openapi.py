@@ -13,6 +13,7 @@ from referee.wire import (
     BatchRequest,
     ClientSeedRequest,
     DecisionRequest,
+    DisqualifyRequest,
     ForfeitRequest,
     InvitationRequest,
     MatchRequest,
@@ -21,6 +22,8 @@ from referee.wire import (
     ShotRequest,
     SimulateRequest,
     TokenRequest,
+    TournamentRequest,
+    VoidRequest,
 )
 from server.routes.describe import TOKEN_SCHEME
 
@@ -31,6 +34,7 @@ REQUESTS: tuple[type[BaseModel], ...] = (
     BatchRequest,
     ClientSeedRequest,
     DecisionRequest,
+    DisqualifyRequest,
     ForfeitRequest,
     InvitationRequest,
     MatchRequest,
@@ -38,6 +42,8 @@ REQUESTS: tuple[type[BaseModel], ...] = (
     ShotRequest,
     SimulateRequest,
     TokenRequest,
+    TournamentRequest,
+    VoidRequest,
 )
 
 

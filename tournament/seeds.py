@@ -8,7 +8,7 @@ import hashlib
 import hmac
 
 from physics import SeededStream
-from referee.play import GameSeeds
+from referee.play import GameSeeds, MatchSeed
 from tournament.pairings import Pair
 from tournament.spec import Spec
 
@@ -34,11 +34,18 @@ def level(spec: Spec, pair_id: str, index: int) -> float:
 
 
 def game_seeds(spec: Spec, pair: Pair, leg: int, attempt: int = 0) -> GameSeeds:
-    """The secrets of one game: the racks of its pair, and noise that no other game has, a replayed one included."""
-    return GameSeeds(
-        noise=_derive(spec, f"noise {pair.id} {leg} {attempt}"),
-        racks=_derive(spec, f"racks {pair.id}"),
-        shared_racks=True,
+    """The secrets of one game: the racks of its pair, and noise that no other game has, a replayed one included.
+
+    They are those of the only game of the match that a server makes for it.
+    """
+    return match_seed(spec, pair, leg, attempt).game(0)
+
+
+def match_seed(spec: Spec, pair: Pair, leg: int, attempt: int = 0) -> MatchSeed:
+    """The secret of the match that is one game of the event."""
+    return MatchSeed(
+        _derive(spec, f"noise {pair.id} {leg} {attempt}"),
+        given_racks=_derive(spec, f"racks {pair.id}"),
     )
 
 

@@ -21,7 +21,7 @@ from pydantic import BaseModel, ValidationError
 
 from client.adapters.lines import LineProcess
 from client.agent import Agent
-from client.errors import AgentFailed
+from client.errors import AgentFailed, NonsenseAnswer
 from physics import PhysicsError
 from referee import Action, RefereeError
 from referee.wire import (
@@ -174,9 +174,9 @@ def _read(line: str) -> dict[str, Any]:
     try:
         said = json.loads(line)
     except (ValueError, RecursionError) as error:
-        raise AgentFailed(f"the command answered {line[:SHOWN]!r}, which is no JSON: {error}") from None
+        raise NonsenseAnswer(f"the command answered {line[:SHOWN]!r}, which is no JSON: {error}") from None
     if not isinstance(said, dict):
-        raise AgentFailed(f"the command answered {line[:SHOWN]!r}; allowed: an object with shot or decision")
+        raise NonsenseAnswer(f"the command answered {line[:SHOWN]!r}; allowed: an object with shot or decision")
     return said
 
 
@@ -187,4 +187,4 @@ def _action(said: dict[str, Any], line: str) -> Action:
             return DecisionRequest.model_validate(said).to_action()
         return ShotRequest.model_validate(said).to_action()
     except (ValidationError, PhysicsError, RefereeError) as error:
-        raise AgentFailed(f"the command answered {line[:SHOWN]!r}: {error}") from error
+        raise NonsenseAnswer(f"the command answered {line[:SHOWN]!r}: {error}") from error

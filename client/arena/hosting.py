@@ -1,5 +1,6 @@
 """How an entrant is run: as part of the worker, as a process under limits, or by somebody else at the server."""
 
+import json
 import re
 import shlex
 import sys
@@ -8,7 +9,7 @@ from dataclasses import asdict, dataclass, field, fields
 from enum import StrEnum
 from typing import Any, Self
 
-from client.agents.registry import SHIPPED
+from client.agents.registry import SHIPPED, STDIO
 from client.arena.directory import EventError
 
 ANSWER_SECONDS = 60.0
@@ -28,7 +29,7 @@ class Kind(StrEnum):
     IMPORT_PATH = "import_path"
     """A ``client.Agent`` class, as ``module:Class``."""
     COMMAND = "command"
-    """A program that reads turns and writes actions, a line each."""
+    """A program in any language, as ``stdio:COMMAND``."""
     REMOTE = "remote"
     """An agent that plays at the server by itself: ``remote:AGENT_ID``, or ``remote`` for the one of that name."""
 
@@ -38,7 +39,8 @@ class Hosting:
     """How one entrant is run.
 
     Attributes:
-        agent: a shipped agent's name, ``module:Class``, ``remote`` or ``remote:AGENT_ID``; anything else is a command.
+        agent: as for ``client.load`` (``search:seconds=0.3``, ``module:Class``, ``stdio:COMMAND``), or ``remote``,
+            ``remote:AGENT_ID``.
         options: keyword arguments for the agent's class.
         process: a process of its own, under the limits below; None: all but shipped ones.
         memory_mb: address space, MiB. cores: how many processor cores. Only for processes.
@@ -70,11 +72,11 @@ class Hosting:
     @property
     def kind(self) -> Kind:
         """What ``agent`` names."""
-        if self.agent in SHIPPED:
+        if self.agent.partition(":")[0] in SHIPPED:
             return Kind.SHIPPED
         if _REMOTE.fullmatch(self.agent):
             return Kind.REMOTE
-        return Kind.IMPORT_PATH if _IMPORT_PATH.fullmatch(self.agent) else Kind.COMMAND
+        return Kind.COMMAND if self.agent.startswith(STDIO) else Kind.IMPORT_PATH
 
     @property
     def as_process(self) -> bool:
@@ -89,11 +91,7 @@ class Hosting:
         return self.agent.partition(":")[2] or None if self.kind is Kind.REMOTE else None
 
     def command(self, seed: int) -> list[str]:
-        """The command line of its process; ``seed`` is for agents of this package."""
-        if self.kind is Kind.COMMAND:
-            return shlex.split(self.agent)
-        import json
-
+        """The command line of its process (``client.arena.serving``); ``seed`` is for agents of this package."""
         here = [sys.executable, "-P", "-m", "client.arena.serving", self.agent]
         return [*here, "--seed", str(seed), "--options", json.dumps(dict(self.options))]
 
@@ -122,8 +120,9 @@ def _check_numbers(hosting: Hosting) -> None:
 
 
 def _check_mappings(hosting: Hosting) -> None:
-    if not hosting.agent.strip():
-        _fail("agent", hosting.agent, "a name, module:Class, remote or a command")
+    if hosting.kind is Kind.IMPORT_PATH and not _IMPORT_PATH.fullmatch(hosting.agent):
+        allowed = f"{', '.join(SHIPPED)}, module:Class, stdio:COMMAND, remote or remote:AGENT_ID"
+        _fail("agent", hosting.agent, allowed)
     try:
         shlex.split(hosting.agent)
     except ValueError as error:

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from client.adapters.stdio import LOGS
 from client.arena.cores import CoreLease
 from client.arena.hosting import Hosting
 from referee import Action, EndReason, SimulationBudget
@@ -29,14 +30,14 @@ CONFINE = Path(__file__).with_name("confine.py")
 
 
 class ProcessSeat:
-    """A command at the table, speaking lines.
+    """``client.arena.serving`` at the table.
 
     A turn is a line ``{"type": "turn", "game": …, "view": …}`` on its standard input, as ``GET /v1/turns`` gives it;
     the answer is the action as a line on its standard output, ``simulated`` beside it if it counts simulated shots.
     ``game_over`` messages are not answered.
 
     Args:
-        hosting: the command and its limits.
+        hosting: the agent and its limits.
         seed: for agents of this package.
         log: where its standard error goes; nowhere if None.
         tell: told what goes wrong, in a sentence.
@@ -113,7 +114,7 @@ class ProcessSeat:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=sink,
-                env=os.environ | _threads(self._hosting.cores) | dict(self._hosting.environment),
+                env=os.environ | self._variables(),
                 start_new_session=True,
                 bufsize=0,
             )
@@ -122,6 +123,11 @@ class ProcessSeat:
         for pipe in (process.stdin, process.stdout):
             os.set_blocking(pipe.fileno(), False)
         return process
+
+    def _variables(self) -> dict[str, str]:
+        """What its environment has beside ours; a command's own standard error lies beside the log."""
+        logs = {} if self._log is None else {LOGS: str(self._log.with_suffix(""))}
+        return logs | _threads(self._hosting.cores) | dict(self._hosting.environment)
 
     def _drop_stale(self, process: subprocess.Popen[bytes]) -> None:
         """Throw away what it said unasked: it must not pass for the answer to this turn."""

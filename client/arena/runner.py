@@ -6,10 +6,10 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 
 from client.arena.directory import EventDirectory, EventError, write_whole
 from client.arena.executors import RETRIES, Pool, WorkerLost, result_of
-from client.arena.ledger import Ledger
 from client.arena.tasks import PairDone, PairTask
 from client.arena.terms import Terms
-from tournament import Due, Event
+from tournament import Due, Event, TournamentError
+from tournament.ledger import Ledger
 
 LOOK_EVERY = 0.5
 """Seconds between looks into the journal for what an organiser has decided meanwhile."""
@@ -58,7 +58,10 @@ class Runner:
 
     def _look(self) -> None:
         """Take in what the journal says that is new."""
-        self._ledger = self._ledger.after(self._journal.new())
+        try:
+            self._ledger = self._ledger.after(self._journal.new())
+        except TournamentError as error:
+            raise EventError(f"{self._journal.path} does not fit the event: {error}") from None
         self._observer(self._ledger, len(self._running))
 
     def _give_out(self) -> None:

@@ -15,9 +15,13 @@ from typing import Any, BinaryIO
 
 from client.agent import Agent, AgentFactory
 from client.agents.registry import load
+from client.errors import AgentFailed, NonsenseAnswer
 from client.simulator import Simulator
 from referee import Action, SimulationBudget
 from referee.wire import TURN_MESSAGE, GameOver, Turn
+
+GONE = 70
+"""Exit code when the command behind an agent is gone."""
 
 
 def main() -> None:
@@ -56,6 +60,11 @@ class _Server:
             action = agent.choose(turn.view)
             if not isinstance(action, Action):
                 raise TypeError(f"choose returned {action!r}, which is no client.Action")
+        except AgentFailed as error:
+            traceback.print_exc()
+            if not isinstance(error, NonsenseAnswer):  # the command behind it has left: so does this process
+                sys.exit(GONE)
+            return {"error": str(error)}
         except Exception as error:
             traceback.print_exc()
             return {"error": f"{type(error).__name__}: {error}"}
@@ -94,7 +103,7 @@ def _private_output() -> BinaryIO:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m client.arena.serving", description="Serve an agent line by line.")
-    parser.add_argument("name", help="of a shipped agent, or module:Class")
+    parser.add_argument("name", help="as for `pooliad agent run`")
     parser.add_argument("--seed", type=int, help="makes a shipped agent repeat its choices")
     parser.add_argument("--options", default="{}", help="keyword arguments for the class, as a JSON object")
     return parser

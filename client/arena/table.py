@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import IO, Any
 
 from client.arena.directory import flush_folder
-from client.arena.results import result_of
 from client.arena.seats import Seat
 from client.local import over_message
 from physics import Table
@@ -24,6 +23,7 @@ from referee.record import line_digest, read_record
 from referee.record.canonical import canonical, parse
 from referee.wire import View
 from tournament import Due, GameResult
+from tournament.from_record import result_of
 
 RESULT = ".result.json"
 """Beside a record: its game's result, with the simulated shots, which no record holds."""

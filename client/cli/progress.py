@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from client.arena.ledger import Ledger
+    from tournament.ledger import Ledger
 
 MOST_LINES = 30
 """Standings shown while playing; the rest is in the report."""

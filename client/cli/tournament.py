@@ -9,8 +9,8 @@ from client.cli.output import USAGE, Json, emit, fail, say
 
 if TYPE_CHECKING:
     from client.arena.directory import EventDirectory
-    from client.arena.ledger import Ledger
     from client.arena.terms import Terms
+    from tournament.ledger import Ledger
 
 Event = Annotated[Path, typer.Argument(help="Directory of the event.")]
 Executor = Annotated[str, typer.Option(help="Where games are played: processes, inline, or dask://HOST:PORT.")]
@@ -115,20 +115,20 @@ def _opened(directory: Path) -> "EventDirectory":
 
 
 def _ledger(event: "EventDirectory") -> "Ledger":
-    from client.arena.ledger import Ledger
     from client.arena.terms import Terms
     from tournament import Event as Played
+    from tournament.ledger import Ledger
 
     return Ledger(Played(Terms.from_dict(event.terms()).spec)).after(event.journal.new())
 
 
 def _decide(directory: Path, kind: str, **fields: Any) -> None:
     """Write an organiser's decision into the journal, if it can be carried out as the event stands."""
-    from client.arena.journal import Entry
+    from tournament.ledger import Act
 
     event = _opened(directory)
     before = _ledger(event)
-    after = before.after([Entry(kind, "", fields)])
+    after = before.after([Act(kind, fields)])
     if len(after.refused) > len(before.refused):
         fail(after.refused[-1], USAGE)
     if before.aborted:
@@ -193,7 +193,7 @@ def _account(event: "EventDirectory", ledger: "Ledger") -> dict[str, Any]:
     return {
         "name": played.spec.name,
         "directory": str(event.path),
-        "state": _state(ledger),
+        "state": ledger.state,
         "games": len(played.counted),
         "due": len(played.due),
         "standings": [line.to_dict() for line in standings(played)],
@@ -202,17 +202,9 @@ def _account(event: "EventDirectory", ledger: "Ledger") -> dict[str, Any]:
     }
 
 
-def _state(ledger: "Ledger") -> str:
-    if ledger.aborted:
-        return "aborted"
-    if ledger.event.finished:
-        return "finished"
-    return "paused" if ledger.paused else "unfinished"
-
-
 def _sentence(event: "EventDirectory", ledger: "Ledger") -> str:
-    state, test = _state(ledger), ledger.event.test
-    words = f"{state}: {len(ledger.event.counted)} games; records and journal in {event.path}"
+    test = ledger.event.test
+    words = f"{ledger.state}: {len(ledger.event.counted)} games; records and journal in {event.path}"
     if test is not None:
         words += f"; the test says {test.verdict} after {test.pairs} pairs (log-likelihood ratio {test.llr:.2f})"
     return words

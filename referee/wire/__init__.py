@@ -46,6 +46,20 @@ from referee.wire.streams import ManyEvent, StreamClocks, StreamConnections, Str
 from referee.wire.strokes import StrokeDetail, StrokeView
 from referee.wire.terms import BudgetView, ClockTerms, ClockView, NoiseTerms, NoiseView
 from referee.wire.tokens import InvitationRequest, Invitations, TokenList, TokenRequest, TokenSecret, TokenView
+from referee.wire.tournaments import (
+    DisqualifyRequest,
+    EntryView,
+    SequentialTestView,
+    StandingsView,
+    StandingView,
+    TournamentGame,
+    TournamentList,
+    TournamentRequest,
+    TournamentStatus,
+    TournamentSummary,
+    TournamentView,
+    VoidRequest,
+)
 from referee.wire.turns import TURN_MESSAGE, GameOver, MatchOver, SeedWanted, Turn, TurnMessage
 from referee.wire.view import Allowed, Area, GameTerms, View
 
@@ -71,6 +85,8 @@ __all__ = [
     "ClockTerms",
     "ClockView",
     "DecisionRequest",
+    "DisqualifyRequest",
+    "EntryView",
     "EventView",
     "EvidenceView",
     "Fault",
@@ -103,11 +119,14 @@ __all__ = [
     "RulingView",
     "SeatLedger",
     "SeedWanted",
+    "SequentialTestView",
     "ShotParameters",
     "ShotRequest",
     "ShotsPage",
     "SimulateAnswer",
     "SimulateRequest",
+    "StandingView",
+    "StandingsView",
     "StreamClocks",
     "StreamConnections",
     "StreamResult",
@@ -119,9 +138,16 @@ __all__ = [
     "TokenRequest",
     "TokenSecret",
     "TokenView",
+    "TournamentGame",
+    "TournamentList",
+    "TournamentRequest",
+    "TournamentStatus",
+    "TournamentSummary",
+    "TournamentView",
     "Turn",
     "TurnMessage",
     "View",
+    "VoidRequest",
     "of_many",
     "shown",
 ]

@@ -4,11 +4,12 @@ from typing import Final
 
 from fastapi import APIRouter
 
-from server.routes import agents, games, health, keys, matches, page, physics, streams, tokens, turns
+from server.routes import agents, games, health, keys, matches, page, physics, streams, tokens, tournaments, turns
 
 ROUTERS: Final[tuple[APIRouter, ...]] = (
     agents.router,
     matches.router,
+    tournaments.router,
     turns.router,
     games.router,
     streams.router,

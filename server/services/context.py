@@ -2,7 +2,7 @@
 
 import threading
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
@@ -28,6 +28,7 @@ class Context:
         warm: set when the kernels are loaded; warm_up_failed: set when they could not be.
         in_hand: for each game the arrival times of the requests that are being worked on.
         failpoint: told every step at which tests have the process killed.
+        match_over: called when a match has ended, with its id, in the transaction that ended it.
     """
 
     settings: Settings
@@ -41,6 +42,7 @@ class Context:
     physics: PhysicsPool = field(init=False)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
     failpoint: Failpoint = field(default_factory=lambda: failpoints.parse(""))
+    match_over: Callable[["Writing", str], None] = lambda writing, match_id: None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "limits", Limits.of(self.settings, self.time))
@@ -58,9 +60,15 @@ class Context:
 
     @contextmanager
     def writing(self) -> Iterator["Writing"]:
-        """A transaction that commits at the end of the block and rolls back when it raises."""
+        """A transaction that commits at the end of the block and rolls back when it raises.
+
+        Then the agents in `Writing.woken` are.
+        """
         with self.database.writing() as connection:
-            yield Writing(connection, self, self.time.now())
+            writing = Writing(connection, self, self.time.now())
+            yield writing
+        if writing.woken:
+            self.wakeups.notify(writing.woken)
 
     def is_in_hand(self, game_id: str, deadline: int) -> bool:
         """Whether a request that came before the deadline is being worked on.
@@ -72,8 +80,13 @@ class Context:
 
 @dataclass(frozen=True, slots=True)
 class Writing:
-    """A transaction that is under way: its connection, the server's parts, and the time it happens at."""
+    """A transaction that is under way: its connection, the server's parts, and the time it happens at.
+
+    Attributes:
+        woken: agents to be told that there may be news for them, once it is committed.
+    """
 
     connection: Connection
     context: Context
     now: int
+    woken: set[str] = field(default_factory=set, compare=False)

@@ -140,6 +140,7 @@ def _go_on(writing: Writing, live: LiveGame) -> None:
     this = matches.c.id == live.match.id
     writing.connection.execute(update(matches).where(this).values(status=FINISHED, ended_at=writing.now))
     notices.match_over(writing.connection, live.match, FINISHED)
+    writing.context.match_over(writing, live.match.id)
 
 
 def _next_turn(writing: Writing, live: LiveGame, game: Game, charge: Charge) -> dict[str, Any]:

@@ -1,8 +1,9 @@
 """Looking at games: how one stands, its strokes in pages, its record."""
 
 import json
+from typing import Any
 
-from sqlalchemy import Connection, select
+from sqlalchemy import Connection, Row, select
 
 from referee.wire import GameAnswer, ShotsPage, StrokeDetail
 from server.errors import GameUnfinished
@@ -43,10 +44,15 @@ def shots(context: Context, game_id: str, cursor: int, limit: int) -> ShotsPage:
 
 def record(context: Context, game_id: str) -> str:
     """The record of a game that is over, as JSON lines; raises `GameUnfinished`."""
-    ours = select(moves.c.line).where(moves.c.game_id == game_id).order_by(moves.c.number)
     with context.database.reading() as connection:
         live = find(connection, game_id)
         if live.is_running:
             raise GameUnfinished("the record, with the seed, is published when the game is over")
-        lines = connection.scalars(ours).all()
-    return "".join(f"{line}\n" for line in (live.row.header, *lines, live.row.ending, live.row.seal))
+        lines = record_lines(connection, live.row)
+    return "".join(f"{line}\n" for line in lines)
+
+
+def record_lines(connection: Connection, row: Row[Any]) -> list[str]:
+    """The record of a game that is over, from its row."""
+    ours = select(moves.c.line).where(moves.c.game_id == row.id).order_by(moves.c.number)
+    return [row.header, *connection.scalars(ours), row.ending, row.seal]

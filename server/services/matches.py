@@ -53,6 +53,15 @@ def abort(context: Context, match_id: str, command: Command) -> Answer:
     return answer
 
 
+def call_off(context: Context, match_id: str) -> None:
+    """Call off a match that is still on, because what it was made for is over."""
+    with context.writing() as writing:
+        match = hold_match(writing.connection, match_id)
+        if match.status in (OPENING, RUNNING):
+            _abort(writing, match)
+    context.wakeups.notify((match.seat_0, match.seat_1))
+
+
 def one(context: Context, match_id: str) -> MatchView:
     """A match with its games; raises `NotFound`."""
     with context.database.reading() as connection:
@@ -96,7 +105,7 @@ def _created(writing: Writing, command: Command) -> Answer:
     _require_agents(writing.connection, request)
     _require_start(request)
     house.require_terms(writing.connection, request, command.caller)
-    match = _insert(writing, request, command.caller)
+    match = insert_match(writing, request, None if command.caller.is_organiser else command.caller.id)
     if match.challenger is None or house.has_place(writing, match):
         match = begin_or_wait(writing, match)
     return Answer.of(201, match_views.view(writing.connection, match), location=f"/v1/matches/{match.id}")
@@ -133,14 +142,15 @@ def _require_start(request: MatchRequest) -> None:
         raise invalid_field(f"start.{error.field}", error.value, error.allowed) from error
 
 
-def _insert(writing: Writing, request: MatchRequest, caller: Caller) -> Row[Any]:
-    match_id, organised = f"match_{secrets.token_hex(8)}", caller.is_organiser
+def insert_match(writing: Writing, request: MatchRequest, challenger: str | None) -> Row[Any]:
+    """Store a match that an organiser made, or a challenge; nothing has begun."""
+    match_id = f"match_{secrets.token_hex(8)}"
     row = {
         "id": match_id,
         "seat_0": request.agents[0],
         "seat_1": request.agents[1],
-        "challenger": None if organised else caller.id,
-        "status": OPENING if organised else CHALLENGED,
+        "challenger": challenger,
+        "status": OPENING if challenger is None else CHALLENGED,
         "games": request.games,
         "rules": request.rules,
         "table": request.table,
@@ -182,6 +192,7 @@ def _abort(writing: Writing, match: Row[Any]) -> Row[Any]:
     if before != CHALLENGED:
         games.abort_running(writing, match)
         notices.match_over(writing.connection, match, ABORTED)
+        writing.context.match_over(writing, match.id)
     return match
 
 

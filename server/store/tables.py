@@ -233,3 +233,41 @@ notices = Table(
     Index("ix_notices_agent_delivered", "agent_id", "delivered_at"),
 )
 """Messages that are news rather than a question: `game_over` and `match_over`, one row for each player."""
+
+tournaments = Table(
+    "tournaments",
+    metadata,
+    Column("id", Identifier, primary_key=True),
+    Column("name", String(64), nullable=False),
+    Column("status", String(16), nullable=False, index=True),
+    Column("terms", JSON, nullable=False),
+    Column("agents", JSON, nullable=False),
+    Column("created_at", BigInteger, nullable=False),
+    Column("started_at", BigInteger),
+    Column("ended_at", BigInteger),
+)
+"""`terms`: the whole `tournament.Spec`, its secret seed among them; `agents`: entrant's name to agent id."""
+
+tournament_entries = Table(
+    "tournament_entries",
+    metadata,
+    Column("sequence", Sequence, primary_key=True, autoincrement=True),
+    Column("tournament_id", Identifier, ForeignKey("tournaments.id"), nullable=False, index=True),
+    Column("kind", String(32), nullable=False),
+    Column("by", Identifier, nullable=False),
+    Column("fields", JSON, nullable=False),
+    Column("created_at", BigInteger, nullable=False),
+)
+"""What happened in an event, in order: results and decisions. How it stands follows from its terms and these alone."""
+
+tournament_games = Table(
+    "tournament_games",
+    metadata,
+    Column("match_id", Identifier, ForeignKey("matches.id"), primary_key=True),
+    Column("tournament_id", Identifier, ForeignKey("tournaments.id"), nullable=False),
+    Column("pair", String(64), nullable=False),
+    Column("leg", Integer, nullable=False),
+    Column("attempt", Integer, nullable=False),
+    UniqueConstraint("tournament_id", "pair", "leg", "attempt"),
+)
+"""Which match plays which game of an event."""

@@ -40,6 +40,15 @@ LET_IN = {
     "GET /v1/matches/{match_id}": PUBLIC,
     "POST /v1/matches/{match_id}/accept": ORGANISERS | PLAYERS,
     "POST /v1/matches/{match_id}/abort": ORGANISERS,
+    "POST /v1/tournaments": ORGANISERS,
+    "GET /v1/tournaments": PUBLIC,
+    "GET /v1/tournaments/{tournament_id}": PUBLIC,
+    "GET /v1/tournaments/{tournament_id}/standings": PUBLIC,
+    "POST /v1/tournaments/{tournament_id}/start": ORGANISERS,
+    "POST /v1/tournaments/{tournament_id}/pause": ORGANISERS,
+    "POST /v1/tournaments/{tournament_id}/abort": ORGANISERS,
+    "POST /v1/tournaments/{tournament_id}/void": ORGANISERS,
+    "POST /v1/tournaments/{tournament_id}/disqualify": ORGANISERS,
     "GET /v1/turns": AGENTS,
     "GET /v1/games/{game_id}": PUBLIC,
     "GET /v1/games/{game_id}/clock": PUBLIC,
@@ -108,6 +117,13 @@ def staff(organiser, new_player):
     }
 
 
+def event(organiser, players):
+    """A tournament of the match's two players."""
+    terms = {"name": "Cup", "entrants": ["ann", "bob"]}
+    agents = dict(zip(terms["entrants"], (player.id for player in players), strict=True))
+    return organiser.post("/v1/tournaments", {"terms": terms, "agents": agents}).json()["id"]
+
+
 def situation(server, new_table, made):
     """A fresh match, for requests may end it."""
     table = new_table()
@@ -118,6 +134,7 @@ def situation(server, new_table, made):
         "match_id": table.match["id"],
         "game_id": table.game,
         "token_id": made["spare"]["id"],
+        "tournament_id": event(table.organiser, table.players),
         "name": "page.js",
         "agents": (mover.id, opponent.id),
     }

@@ -60,6 +60,13 @@ def test_the_contracts_routes_are_all_there(document):
         ("POST", "/v1/matches/{match_id}/abort"),
         ("POST", "/v1/matches/{match_id}/seed"),
         ("GET", "/v1/keys"),
+        ("POST", "/v1/tournaments"),
+        ("GET", "/v1/tournaments"),
+        ("GET", "/v1/tournaments/{tournament_id}"),
+        ("GET", "/v1/tournaments/{tournament_id}/standings"),
+        ("POST", "/v1/tournaments/{tournament_id}/start"),
+        ("POST", "/v1/tournaments/{tournament_id}/pause"),
+        ("POST", "/v1/tournaments/{tournament_id}/abort"),
         ("GET", "/v1/turns"),
         ("POST", "/v1/games/{game_id}/shots"),
         ("POST", "/v1/games/{game_id}/decisions"),
@@ -121,8 +128,11 @@ class Somewhere:
             caller = mover
         if path.endswith("/record"):
             mover.post(f"/v1/games/{view['game']}/concede", version=view["version"])
-        if "agents" in (example or {}):
+        if path == "/v1/tournaments" and method == "post":
+            example["agents"] = {name: self.new_player().id for name in example["agents"]}
+        elif "agents" in (example or {}):
             example["agents"] = [self.new_player().id, self.new_player().id]
+        event = self.event(table.organiser, path) if "{tournament_id}" in path else ""
         if path == "/v1/agents" and method == "post":
             example["name"] = f"example {view['game'][-8:]}"
         match, agent = table.match["id"], table.players[0].id
@@ -132,11 +142,28 @@ class Somewhere:
             caller = bob
         token = {"name": "example", "scopes": ["read"]}
         token_id = table.organiser.post("/v1/tokens", token).json()["id"]
-        address = path.format(agent_id=agent, match_id=match, game_id=view["game"], token_id=token_id)
+        ids = {"agent_id": agent, "match_id": match, "game_id": view["game"], "token_id": token_id}
+        address = path.format(**ids, tournament_id=event)
         headers = {header["name"]: header["example"] for header in headers_of(operation)}
         if "If-Match" in headers:
             headers["If-Match"] = f'"{view["version"]}"'
         return caller.request(method.upper(), address, headers=headers, **body_of(example))
+
+    def event(self, organiser, path):
+        """A tournament between ann and bob, as far as the request needs it."""
+        players = {name: self.new_player() for name in ("ann", "bob")}
+        terms = {"name": "Cup", "entrants": list(players), "pairs": 1}
+        body = {"terms": terms, "agents": {name: player.id for name, player in players.items()}}
+        event = organiser.post("/v1/tournaments", body).json()["id"]
+        if path.endswith(("/pause", "/void", "/disqualify")):
+            organiser.post(f"/v1/tournaments/{event}/start")
+        if path.endswith("/void"):
+            breaker = organiser.get(f"/v1/tournaments/{event}").json()["played"][0]["players"][0]
+            view = players[breaker].turn()["view"]
+            assert (
+                players[breaker].post(f"/v1/games/{view['game']}/concede", version=view["version"]).status_code == 200
+            )
+        return event
 
     def lead_up(self, table, mover, view, example):
         """Play up to a position in which the example is due."""

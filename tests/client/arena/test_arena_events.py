@@ -11,11 +11,11 @@ import pytest
 
 from client.arena.directory import EventDirectory, EventError
 from client.arena.executors import InProcess, pool_of
-from client.arena.ledger import Ledger
 from client.arena.runner import Runner
 from client.arena.terms import Terms
 from referee.record import verify_record
 from tournament import Event
+from tournament.ledger import Ledger
 
 CUP = {
     "name": "cup",
@@ -255,7 +255,7 @@ def test_a_worker_killed_in_the_middle_costs_nothing(tmp_path, whole):
 
 def test_the_sequential_test_is_evaluated_in_the_order_of_pairs(tmp_path):
     """Whatever else was finished by then: the counted games are those up to the decision."""
-    sprt = {"entrants": ["random", {"name": "dead", "agent": "false"}], "pairs": 60, "sprt": {"elo1": 300.0}}
+    sprt = {"entrants": ["random", {"name": "dead", "agent": "stdio:false"}], "pairs": 60, "sprt": {"elo1": 300.0}}
     one = begin(tmp_path / "one", **sprt)
     ledger = run(one)
     assert ledger.event.stopped

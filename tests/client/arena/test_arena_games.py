@@ -19,7 +19,15 @@ from tournament import Event
 
 
 def terms_of(**values):
-    return Terms.from_dict({"name": "cup", "entrants": ["one", "two"], "seconds": None, "seed": 3, **values})
+    return Terms.from_dict(
+        {
+            "name": "cup",
+            "entrants": [{"name": "one", "agent": "random"}, {"name": "two", "agent": "random"}],
+            "seconds": None,
+            "seed": 3,
+            **values,
+        }
+    )
 
 
 def games_of(terms):
@@ -45,7 +53,7 @@ def script(tmp_path, text):
     """A command that runs a Python script."""
     path = tmp_path / "bot.py"
     path.write_text("import json, os, sys, time\n" + textwrap.dedent(text))
-    return f"{sys.executable} {path}"
+    return f"stdio:{sys.executable} {path}"
 
 
 @pytest.mark.parametrize(
@@ -55,39 +63,26 @@ def script(tmp_path, text):
         ("sys.stdin.readline(); os.kill(os.getpid(), 9)", {}, EndReason.CRASH),
         ("time.sleep(60)", {}, EndReason.STALL),
         ("os.close(0); time.sleep(60)", {}, EndReason.STALL),
-        ("time.sleep(60)", {"seconds": 0.6}, EndReason.TIME_OUT),
-        ("for line in sys.stdin: print('nonsense', flush=True)", {}, EndReason.FORFEIT),
-        ("for line in sys.stdin: print(json.dumps({'decision': 'concede'}), flush=True)", {}, EndReason.CONCESSION),
-        ("for line in sys.stdin: print('x' * 100_000, flush=True)", {}, EndReason.FORFEIT),
+        ("time.sleep(60)", {"seconds": 2.5}, EndReason.TIME_OUT),
+        ("for line in sys.stdin:\n  if '\"turn\"' in line: print('nonsense', flush=True)", {}, EndReason.FORFEIT),
+        (
+            'for line in sys.stdin:\n  if \'"turn"\' in line: print(\'{"decision": "concede"}\', flush=True)',
+            {},
+            EndReason.CONCESSION,
+        ),
+        ("for line in sys.stdin: print('x' * 2_000_000, flush=True)", {}, EndReason.CRASH),
         ("x = bytes(10**10)", {}, EndReason.CRASH),
     ],
     ids=["exits", "killed", "silent", "deaf", "slow", "nonsense", "concedes", "long line", "memory"],
 )
 def test_every_failure_has_its_own_end_and_costs_one_game(tmp_path, text, values, reason):
     """Both games are lost in the same way: after the first the process was started again."""
-    bad = Hosting(script(tmp_path, text), answer_seconds=1.0, memory_mb=2000)
+    patience = 3.0 if reason is EndReason.STALL else 60.0
+    bad = Hosting(script(tmp_path, text), answer_seconds=patience, memory_mb=4000)
     done = pair_of(bad, Hosting("random"), **values)
     for result, record in zip(done.results, done.records, strict=True):
         assert (result.reason, result.winner) == (reason, 1)
         assert verify_record(record.splitlines()).ok
-
-
-def test_a_flood_ends_the_game_whatever_of_it_is_read_first(tmp_path):
-    bad = Hosting(script(tmp_path, "while True: print('x' * 1000)"), answer_seconds=1.0)
-    for result in pair_of(bad, Hosting("random")).results:
-        assert result.reason in (EndReason.FORFEIT, EndReason.STALL)
-        assert result.winner == 1
-
-
-def test_what_is_said_unasked_is_no_answer(tmp_path):
-    talks = """
-    print(json.dumps({"decision": "concede"}), flush=True)
-    for line in sys.stdin:
-        print("hm", flush=True)
-    """
-    done = pair_of(Hosting(script(tmp_path, "time.sleep(0.3)\n" + textwrap.dedent(talks))), Hosting("random"))
-    assert {result.reason for result in done.results} <= {EndReason.FORFEIT, EndReason.CONCESSION}
-    assert any(name == "one" for name, _ in done.reports)
 
 
 def test_a_process_plays_the_very_game_it_plays_inside():

@@ -1,4 +1,4 @@
-"""The first tables: agents, tokens, matches, games, moves, answers, notices, signing keys."""
+"""The first tables: agents, tokens, matches, games, moves, answers, notices, signing keys, tournaments."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -212,10 +212,63 @@ def upgrade() -> None:
         sa.PrimaryKeyConstraint("sequence", name=op.f("pk_moves")),
         sa.UniqueConstraint("game_id", "number", name=op.f("uq_moves_game_id_number")),
     )
+    op.create_table(
+        "tournaments",
+        sa.Column("id", sa.String(length=64), nullable=False),
+        sa.Column("name", sa.String(length=64), nullable=False),
+        sa.Column("status", sa.String(length=16), nullable=False),
+        sa.Column("terms", sa.JSON(), nullable=False),
+        sa.Column("agents", sa.JSON(), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.Column("started_at", sa.BigInteger(), nullable=True),
+        sa.Column("ended_at", sa.BigInteger(), nullable=True),
+        sa.PrimaryKeyConstraint("id", name=op.f("pk_tournaments")),
+    )
+    op.create_index(op.f("ix_tournaments_status"), "tournaments", ["status"], unique=False)
+    op.create_table(
+        "tournament_entries",
+        sa.Column(
+            "sequence",
+            sa.BigInteger().with_variant(sa.Integer(), "sqlite"),
+            autoincrement=True,
+            nullable=False,
+        ),
+        sa.Column("tournament_id", sa.String(length=64), nullable=False),
+        sa.Column("kind", sa.String(length=32), nullable=False),
+        sa.Column("by", sa.String(length=64), nullable=False),
+        sa.Column("fields", sa.JSON(), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.ForeignKeyConstraint(
+            ["tournament_id"], ["tournaments.id"], name=op.f("fk_tournament_entries_tournament_id_tournaments")
+        ),
+        sa.PrimaryKeyConstraint("sequence", name=op.f("pk_tournament_entries")),
+    )
+    op.create_index(op.f("ix_tournament_entries_tournament_id"), "tournament_entries", ["tournament_id"], unique=False)
+    op.create_table(
+        "tournament_games",
+        sa.Column("match_id", sa.String(length=64), nullable=False),
+        sa.Column("tournament_id", sa.String(length=64), nullable=False),
+        sa.Column("pair", sa.String(length=64), nullable=False),
+        sa.Column("leg", sa.Integer(), nullable=False),
+        sa.Column("attempt", sa.Integer(), nullable=False),
+        sa.ForeignKeyConstraint(["match_id"], ["matches.id"], name=op.f("fk_tournament_games_match_id_matches")),
+        sa.ForeignKeyConstraint(
+            ["tournament_id"], ["tournaments.id"], name=op.f("fk_tournament_games_tournament_id_tournaments")
+        ),
+        sa.PrimaryKeyConstraint("match_id", name=op.f("pk_tournament_games")),
+        sa.UniqueConstraint(
+            "tournament_id", "pair", "leg", "attempt", name=op.f("uq_tournament_games_tournament_id_pair_leg_attempt")
+        ),
+    )
 
 
 def downgrade() -> None:
     """Drop them."""
+    op.drop_table("tournament_games")
+    op.drop_index(op.f("ix_tournament_entries_tournament_id"), table_name="tournament_entries")
+    op.drop_table("tournament_entries")
+    op.drop_index(op.f("ix_tournaments_status"), table_name="tournaments")
+    op.drop_table("tournaments")
     op.drop_table("moves")
     op.drop_table("heartbeats")
     op.drop_index(op.f("ix_charges_game_id"), table_name="charges")

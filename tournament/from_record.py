@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from referee.game import Outcome
 from referee.play.clock import SECOND_NS
 from referee.record import Record
-from tournament import Due, GameResult
+from tournament.pairings import Due
+from tournament.results import GameResult
 
 
 def result_of(record: Record, due: Due, simulated: Sequence[int] = (0, 0), place: str = "") -> GameResult:

@@ -1,11 +1,35 @@
-"""An event as its journal tells it: every entry changes it or is refused, in the same way whenever it is read."""
+"""An event as its entries tell it: each changes it or is refused, in the same way whenever they are read.
 
-from collections.abc import Callable, Iterable
+Whoever runs an event keeps entries, in the order in which they were decided: a file's lines, a table's rows.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any, Protocol
 
-from client.arena.directory import EventError
-from client.arena.journal import Entry
-from tournament import Event, GameResult, TournamentError
+from tournament.errors import InvalidResult, TournamentError
+from tournament.event import Event
+from tournament.results import GameResult
+
+
+class Entry(Protocol):
+    """What was decided: a game's result (``game``), an organiser's act, or something that changes nothing."""
+
+    @property
+    def kind(self) -> str:
+        """``game``, ``void``, ``disqualify``, ``pause``, ``go_on``, ``abort``, or any other word."""
+
+    @property
+    def fields(self) -> Mapping[str, Any]:
+        """``result``; ``pair`` and ``leg``; ``name``; what else there is to know."""
+
+
+@dataclass(frozen=True, slots=True)
+class Act:
+    """An entry that is not kept yet."""
+
+    kind: str
+    fields: Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -22,6 +46,15 @@ class Ledger:
     paused: bool = False
     aborted: bool = False
     refused: tuple[str, ...] = field(default=())
+
+    @property
+    def state(self) -> str:
+        """``finished``, ``aborted``, ``paused`` or ``running``."""
+        if self.aborted:
+            return "aborted"
+        if self.event.finished:
+            return "finished"
+        return "paused" if self.paused else "running"
 
     @property
     def over(self) -> bool:
@@ -64,10 +97,9 @@ class Ledger:
 
 
 def _result(entry: Entry) -> GameResult:
-    try:
-        return GameResult.from_dict(entry.fields["result"])
-    except (KeyError, TournamentError) as error:
-        raise EventError(f"the journal's game of {entry.at} is no result: {error}") from None
+    if "result" not in entry.fields:
+        raise InvalidResult("game", dict(entry.fields), "an entry with a result")
+    return GameResult.from_dict(entry.fields["result"])
 
 
 def _void(ledger: Ledger, entry: Entry) -> Ledger:

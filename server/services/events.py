@@ -1,0 +1,165 @@
+"""The course of an event: entries are noted, matches begin, their results become entries, until nothing is due.
+
+Everything here that writes runs in the transaction of whatever caused it.
+"""
+
+from typing import Any, Final, get_args
+
+from sqlalchemy import Connection, Row, insert, select, update
+
+from referee.record import read_record
+from referee.wire import ClockTerms, MatchRequest, NoiseTerms, TournamentStatus
+from referee.wire.matches import RackTerms
+from server.errors import NotFound
+from server.services import history
+from server.services.context import Context, Writing
+from server.services.live import RUNNING
+from server.services.matches import insert_match
+from server.services.openings import begin_or_wait
+from server.store.locks import only_one
+from server.store.tables import games, matches, tournament_entries, tournament_games, tournaments
+from tournament import Due, Event, Pair, Spec
+from tournament.from_record import result_of
+from tournament.ledger import Act, Ledger
+from tournament.seeds import match_seed
+
+STATUSES: Final[tuple[str, ...]] = get_args(TournamentStatus)
+OPEN: Final = ("created", "running", "paused")
+SERVER: Final = "server"
+"""Who notes results."""
+LONGEST_CLOCK: Final = 86_400.0
+"""Seconds for a player in an event without a wall clock: a match at a server always has one."""
+
+
+def find(connection: Connection, tournament_id: str) -> Row[Any]:
+    """The event with this id; raises `NotFound`."""
+    row = connection.execute(select(tournaments).where(tournaments.c.id == tournament_id)).one_or_none()
+    if row is None:
+        raise NotFound(f"there is no tournament {tournament_id}")
+    return row
+
+
+def hold(connection: Connection, tournament_id: str) -> Row[Any]:
+    """The same, to be written by this transaction alone."""
+    only_one(connection, f"tournament {tournament_id}")
+    return find(connection, tournament_id)
+
+
+def spec_of(row: Row[Any]) -> Spec:
+    """The terms."""
+    return Spec.from_dict(row.terms)
+
+
+def ledger_of(connection: Connection, row: Row[Any]) -> Ledger:
+    """How the event stands."""
+    return Ledger(Event(spec_of(row))).after(Act(each.kind, each.fields) for each in entries(connection, row.id))
+
+
+def entries(connection: Connection, tournament_id: str) -> list[Row[Any]]:
+    """What happened, in order."""
+    ours = tournament_entries.c.tournament_id == tournament_id
+    return list(connection.execute(select(tournament_entries).where(ours).order_by(tournament_entries.c.sequence)))
+
+
+def note(writing: Writing, tournament_id: str, kind: str, by: str, fields: dict[str, Any]) -> None:
+    """Add an entry."""
+    row = {"tournament_id": tournament_id, "kind": kind, "by": by, "fields": fields, "created_at": writing.now}
+    writing.connection.execute(insert(tournament_entries).values(row))
+
+
+def go_on(writing: Writing, tournament_id: str) -> Row[Any]:
+    """Give out what is due and bring the event's row up to date; the row as it is then."""
+    row = find(writing.connection, tournament_id)
+    ledger = ledger_of(writing.connection, row)
+    begun = any(entry.kind == "go_on" for entry in entries(writing.connection, tournament_id))
+    status = "created" if not begun and not ledger.over else ledger.state
+    values: dict[str, Any] = {"status": status}
+    if status == "running":
+        values["started_at"] = row.started_at or writing.now
+        _give_out(writing, row, ledger)
+    elif status not in OPEN:
+        values["ended_at"] = writing.now
+    writing.connection.execute(update(tournaments).where(tournaments.c.id == tournament_id).values(values))
+    return find(writing.connection, tournament_id)
+
+
+def match_over(writing: Writing, match_id: str) -> None:
+    """Note a match's result if it is a game of an event, and go on with that."""
+    this = tournament_games.c.match_id == match_id
+    mine = writing.connection.execute(select(tournament_games).where(this)).one_or_none()
+    if mine is None:
+        return
+    row = hold(writing.connection, mine.tournament_id)
+    if row.status not in OPEN:
+        return
+    pair = _pair(writing.connection, row, mine.pair)
+    if pair is not None:
+        result = _result(writing.connection, match_id, Due(pair, mine.leg, mine.attempt))
+        note(writing, row.id, "game", SERVER, {"result": result})
+    go_on(writing, row.id)
+
+
+def stray_matches(context: Context, tournament_id: str) -> list[str]:
+    """Running matches whose games are no longer due: of an event that was aborted, of an entrant who is out."""
+    with context.database.reading() as connection:
+        row = find(connection, tournament_id)
+        ledger = ledger_of(connection, row)
+        due = set() if ledger.aborted else {(one.pair.id, one.leg, one.attempt) for one in ledger.event.due}
+        running = running_games(connection, tournament_id)
+    return [str(game.match_id) for game in running if (game.pair, game.leg, game.attempt) not in due]
+
+
+def running_games(connection: Connection, tournament_id: str) -> list[Row[Any]]:
+    """The games of the event whose matches are running."""
+    both = tournament_games.join(matches, matches.c.id == tournament_games.c.match_id)
+    ours = (tournament_games.c.tournament_id == tournament_id) & (matches.c.status == RUNNING)
+    columns = (*tournament_games.c, matches.c.seat_0, matches.c.seat_1)
+    return list(connection.execute(select(*columns).select_from(both).where(ours)))
+
+
+def _give_out(writing: Writing, row: Row[Any], ledger: Ledger) -> None:
+    """Begin a match for every due game whose two players are both free, in the order of the event."""
+    running = running_games(writing.connection, row.id)
+    busy = {agent for game in running for agent in (game.seat_0, game.seat_1)}
+    begun = {(game.pair, game.leg, game.attempt) for game in running}
+    for due in ledger.event.due:
+        players = [row.agents[name] for name in due.pair.players]
+        if (due.pair.id, due.leg, due.attempt) not in begun and busy.isdisjoint(players):
+            _begin(writing, row, ledger.event.spec, due)
+            busy.update(players)
+
+
+def _begin(writing: Writing, row: Row[Any], spec: Spec, due: Due) -> None:
+    """The match of one game."""
+    seed = match_seed(spec, due.pair, due.leg, due.attempt)
+    first, second = (row.agents[name] for name in due.pair.players)
+    assert seed.given_racks is not None
+    request = MatchRequest(
+        agents=(first, second),
+        games=1,
+        table=spec.table if isinstance(spec.table, str) else dict(spec.table),  # type: ignore[arg-type]
+        noise=NoiseTerms(level=due.pair.noise, told=spec.noise.told),
+        clock=ClockTerms(seconds=spec.seconds or LONGEST_CLOCK, simulations=spec.simulated_shots),
+        seed=seed.secret.hex(),
+        racks=RackTerms(seed=seed.given_racks.hex()),
+        first_breaker=due.breaker,
+    )
+    match = insert_match(writing, request, challenger=None)
+    game = {"match_id": match.id, "tournament_id": row.id, "pair": due.pair.id, "leg": due.leg, "attempt": due.attempt}
+    writing.connection.execute(insert(tournament_games).values(game))
+    begin_or_wait(writing, match)
+    writing.woken.update((first, second))
+
+
+def _pair(connection: Connection, row: Row[Any], pair_id: str) -> Pair | None:
+    """A pair of the event; None if it has left the plan meanwhile."""
+    plan = ledger_of(connection, row).event.plan.pairs
+    return next((pair for pair in plan if pair.id == pair_id), None)
+
+
+def _result(connection: Connection, match_id: str, due: Due) -> dict[str, Any]:
+    """The result of a match's only game, from its record."""
+    game = connection.execute(select(games).where(games.c.match_id == match_id)).one()
+    record = read_record(history.record_lines(connection, game))
+    simulated = (game.simulated_0, game.simulated_1)
+    return result_of(record, due, simulated, f"/v1/games/{game.id}/record").to_dict()

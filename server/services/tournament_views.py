@@ -1,0 +1,111 @@
+"""Events as lists, single answers and standings show them. Secrets stay until the event is over."""
+
+from dataclasses import asdict
+from typing import Any
+
+from sqlalchemy import Connection, Row, select
+
+from referee.game import Outcome
+from referee.wire import (
+    EntryView,
+    OutcomeView,
+    SequentialTestView,
+    StandingsView,
+    StandingView,
+    TournamentGame,
+    TournamentSummary,
+    TournamentView,
+)
+from server.services import events
+from server.services.time import date_time
+from server.store.tables import tournament_games
+from tournament import GameResult, Pair, standings
+from tournament.ledger import Ledger
+
+Key = tuple[str, int, int]
+"""Pair, leg and attempt of a game."""
+
+
+def view(connection: Connection, row: Row[Any]) -> TournamentView:
+    """An event with its games and decisions."""
+    ledger = events.ledger_of(connection, row)
+    spec, over = ledger.event.spec, row.status not in events.OPEN
+    return TournamentView(
+        **_summary(row, ledger),
+        terms=spec.published() | ({"seed": spec.seed} if over else {}),
+        agents=row.agents,
+        played=tuple(_games(connection, row, ledger)),
+        log=tuple(_entry(each) for each in events.entries(connection, row.id) if each.kind != "game"),
+    )
+
+
+def summary(connection: Connection, row: Row[Any]) -> TournamentSummary:
+    """An event in a list."""
+    return TournamentSummary(**_summary(row, events.ledger_of(connection, row)))
+
+
+def standings_view(connection: Connection, row: Row[Any]) -> StandingsView:
+    """How the entrants stand."""
+    event = events.ledger_of(connection, row).event
+    lines = tuple(StandingView(**line.to_dict(), agent=row.agents[line.name]) for line in standings(event))
+    test = None if event.test is None else SequentialTestView(**asdict(event.test))
+    return StandingsView(tournament=row.id, status=row.status, standings=lines, test=test)
+
+
+def _summary(row: Row[Any], ledger: Ledger) -> dict[str, Any]:
+    spec = ledger.event.spec
+    return {
+        "id": row.id,
+        "name": spec.name,
+        "status": row.status,
+        "format": spec.format.value,
+        "entrants": spec.names,
+        "games": len(ledger.event.counted),
+        "due": len(ledger.event.due),
+        "created_at": date_time(row.created_at),
+        "started_at": None if row.started_at is None else date_time(row.started_at),
+        "ended_at": None if row.ended_at is None else date_time(row.ended_at),
+    }
+
+
+def _entry(entry: Row[Any]) -> EntryView:
+    return EntryView(at=date_time(entry.created_at), kind=entry.kind, by=entry.by, fields=entry.fields)
+
+
+def _games(connection: Connection, row: Row[Any], ledger: Ledger) -> list[TournamentGame]:
+    """Every game that was begun or forfeit, in the order of pairs."""
+    ours = select(tournament_games).where(tournament_games.c.tournament_id == row.id)
+    made: dict[Key, str] = {(one.pair, one.leg, one.attempt): one.match_id for one in connection.execute(ours)}
+    results: dict[Key, GameResult] = {(one.pair, one.leg, one.attempt): one for one in ledger.event.results}
+    pairs = {pair.id: pair for pair in ledger.event.plan.pairs}
+    known = [key for key in made.keys() | results.keys() if key[0] in pairs]
+    told = ledger.event.spec.noise.told or row.status not in events.OPEN
+    return [
+        _game(pairs[key[0]], key, made.get(key), results.get(key), told)
+        for key in sorted(known, key=lambda key: (pairs[key[0]].number, *key[1:]))
+    ]
+
+
+def _game(pair: Pair, key: Key, match: str | None, result: GameResult | None, told: bool) -> TournamentGame:
+    _, leg, attempt = key
+    outcome = None if result is None else OutcomeView.of(Outcome(result.winner, result.reason, result.rule))
+    return TournamentGame(
+        pair=pair.id,
+        leg=leg,
+        attempt=attempt,
+        round=pair.round,
+        players=pair.players,
+        breaker=pair.breaker(leg),
+        noise=pair.noise if told else None,
+        match=match,
+        status=_status(result),
+        outcome=outcome,
+    )
+
+
+def _status(result: GameResult | None) -> Any:
+    if result is None:
+        return "running"
+    if result.void:
+        return "void"
+    return "finished" if result.counts else "aborted"

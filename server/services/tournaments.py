@@ -1,0 +1,166 @@
+"""Tournaments: made by the organiser, their matches given out by the server as the results come in.
+
+How an event stands follows from its terms and its entries alone, by the same code that runs events without a server
+(`tournament.ledger`). Whatever writes an event holds its name first; the one exception is the end of a match, which
+holds the match already, and nothing that holds an event's name then waits for a match that exists.
+"""
+
+import secrets
+from collections.abc import Callable
+from typing import Any, Final
+
+from sqlalchemy import Connection, Row, insert, select
+
+from referee.wire import (
+    DisqualifyRequest,
+    StandingsView,
+    TournamentList,
+    TournamentRequest,
+    TournamentView,
+    VoidRequest,
+)
+from server.errors import WrongStatus, invalid_field
+from server.services import events, tournament_views
+from server.services.commands import Answer, Command, once, parse
+from server.services.context import Context, Writing
+from server.services.matches import call_off
+from server.store.tables import agents, tournaments
+from tournament import Spec, TournamentError
+from tournament.ledger import Act
+
+SECRET_BYTES: Final = 32
+
+
+def create(context: Context, command: Command) -> Answer:
+    """A new event; no match is made before it is started."""
+    command.caller.require_organiser()
+    with context.writing() as writing:
+        return once(writing.connection, command, lambda: _created(writing, command))
+
+
+def start(context: Context, tournament_id: str, command: Command) -> Answer:
+    """Give out the first matches, or go on after a pause."""
+    return _decided(context, tournament_id, command, "go_on", ("created", "paused"))
+
+
+def pause(context: Context, tournament_id: str, command: Command) -> Answer:
+    """Give out no further match; those that are running are played."""
+    return _decided(context, tournament_id, command, "pause", ("running",))
+
+
+def abort(context: Context, tournament_id: str, command: Command) -> Answer:
+    """End an event for good, its running matches too."""
+    return _decided(context, tournament_id, command, "abort", ("created", "running", "paused"))
+
+
+def void(context: Context, tournament_id: str, command: Command) -> Answer:
+    """Take a finished game out of an event; it is played again."""
+    return _decided(
+        context, tournament_id, command, "void", ("running", "paused"), lambda: parse(command, VoidRequest).model_dump()
+    )
+
+
+def disqualify(context: Context, tournament_id: str, command: Command) -> Answer:
+    """Take an entrant out of an event: its running matches are called off, its due games are forfeit."""
+    fields = lambda: parse(command, DisqualifyRequest).model_dump()  # noqa: E731
+    return _decided(context, tournament_id, command, "disqualify", ("created", "running", "paused"), fields)
+
+
+def one(context: Context, tournament_id: str) -> TournamentView:
+    """An event; raises `NotFound`."""
+    with context.database.reading() as connection:
+        return tournament_views.view(connection, events.find(connection, tournament_id))
+
+
+def standings(context: Context, tournament_id: str) -> StandingsView:
+    """How its entrants stand; raises `NotFound`."""
+    with context.database.reading() as connection:
+        return tournament_views.standings_view(connection, events.find(connection, tournament_id))
+
+
+def listing(context: Context, status: str | None, cursor: int, limit: int) -> TournamentList:
+    """Events, the newest first, of one status when asked for; raises `Invalid`."""
+    query = select(tournaments).order_by(tournaments.c.created_at.desc(), tournaments.c.id)
+    if status is not None:
+        if status not in events.STATUSES:
+            raise invalid_field("status", status, f"one of {', '.join(events.STATUSES)}")
+        query = query.where(tournaments.c.status == status)
+    with context.database.reading() as connection:
+        rows = connection.execute(query.offset(cursor).limit(limit + 1)).all()
+        found = tuple(tournament_views.summary(connection, row) for row in rows[:limit])
+    return TournamentList(tournaments=found, next_cursor=str(cursor + limit) if len(rows) > limit else None)
+
+
+def _created(writing: Writing, command: Command) -> Answer:
+    request = parse(command, TournamentRequest)
+    spec = _spec(request)
+    row = {
+        "id": f"tournament_{secrets.token_hex(8)}",
+        "name": spec.name,
+        "status": "created",
+        "terms": spec.to_dict(),
+        "agents": _agents(writing.connection, spec, request),
+        "created_at": writing.now,
+    }
+    writing.connection.execute(insert(tournaments).values(row))
+    events.note(writing, str(row["id"]), "opened", command.caller.id, {})
+    found = tournament_views.view(writing.connection, events.find(writing.connection, str(row["id"])))
+    return Answer.of(201, found, location=f"/v1/tournaments/{row['id']}")
+
+
+def _spec(request: TournamentRequest) -> Spec:
+    """The terms, with a secret seed unless one was given."""
+    terms = {"seed": secrets.token_hex(SECRET_BYTES)} | request.terms
+    try:
+        return Spec.from_dict(terms)
+    except TournamentError as error:
+        raise invalid_field(f"terms.{error.field}", error.value, error.allowed) from error
+
+
+def _agents(connection: Connection, spec: Spec, request: TournamentRequest) -> dict[str, str]:
+    """Each entrant's agent; raises `Invalid` for one that is not registered, or plays under two names."""
+    if unknown := sorted(set(request.agents) - set(spec.names)):
+        raise invalid_field("agents", unknown, f"the names of entrants: {', '.join(spec.names)}"[:500])
+    found: dict[str, str] = {}
+    for name in spec.names:
+        wanted = request.agents.get(name)
+        this = agents.c.name == name if wanted is None else agents.c.id == wanted
+        row = connection.execute(select(agents.c.id).where(this)).one_or_none()
+        if row is None or row.id in found.values():
+            raise invalid_field(f"agents.{name}", wanted or name, "the id of a registered agent, another for each name")
+        found[name] = str(row.id)
+    return found
+
+
+def _decided(
+    context: Context,
+    tournament_id: str,
+    command: Command,
+    kind: str,
+    allowed: tuple[str, ...],
+    fields: Callable[[], dict[str, Any]] = dict,
+) -> Answer:
+    """Carry out an organiser's decision once, then call off the running matches that no longer belong to the event."""
+    with context.writing() as writing:
+        row = events.hold(writing.connection, tournament_id)
+        command.caller.require_organiser()
+        answer = once(
+            writing.connection, command, lambda: _act(writing, row, command.caller.id, kind, allowed, fields())
+        )
+    for match_id in events.stray_matches(context, tournament_id):
+        call_off(context, match_id)
+    return answer
+
+
+def _act(
+    writing: Writing, row: Row[Any], by: str, kind: str, allowed: tuple[str, ...], fields: dict[str, Any]
+) -> Answer:
+    """Note the decision, if the event as it stands allows it, and give out what follows."""
+    if row.status not in allowed:
+        raise WrongStatus(f"the tournament is {row.status}; allowed: {', '.join(allowed)}")
+    refused = events.ledger_of(writing.connection, row).after([Act(kind, fields)]).refused
+    if refused:
+        raise invalid_field(next(iter(fields)), fields[next(iter(fields))], refused[-1])
+    events.note(writing, row.id, kind, by, fields)
+    row = events.go_on(writing, row.id)
+    return Answer.of(200, tournament_views.view(writing.connection, row))

@@ -1,0 +1,225 @@
+"""Tournaments over HTTP: docs/tournaments.md, Over HTTP; docs/protocol.md, Tournaments."""
+
+import itertools
+import signal
+
+import pytest
+
+from referee.record import read_record, verify_record
+from tournament import Event, Spec, game_seeds
+
+
+class Cup:
+    """A tournament of players who do what the test says."""
+
+    def __init__(self, organiser, new_player, names=("ann", "bob", "cat"), **terms):
+        self.organiser = organiser
+        self.players = {name: new_player() for name in names}
+        self.terms = {"name": "Cup", "entrants": list(names), "pairs": 1, "seed": 5, **terms}
+        agents = {name: player.id for name, player in self.players.items()}
+        response = organiser.post("/v1/tournaments", {"terms": self.terms, "agents": agents})
+        assert response.status_code == 201, response.text
+        self.id = response.json()["id"]
+
+    def act(self, verb, body=None, **options):
+        return self.organiser.post(f"/v1/tournaments/{self.id}/{verb}", body, **options)
+
+    def read(self, path=""):
+        response = self.organiser.get(f"/v1/tournaments/{self.id}{path}")
+        assert response.status_code == 200, response.text
+        return response.json()
+
+    def running(self):
+        return [game for game in self.read()["played"] if game["status"] == "running"]
+
+    def concede(self, game):
+        """Let whoever is to break a running game concede it."""
+        breaker = self.players[game["players"][game["breaker"]]]
+        while (message := breaker.turn())["type"] != "turn" or message["view"]["match"] != game["match"]:
+            assert message["type"] != "turn"
+        view = message["view"]
+        assert breaker.post(f"/v1/games/{view['game']}/concede", version=view["version"]).status_code == 200
+        return view["game"]
+
+    def play_out(self):
+        """Concede until the event is over."""
+        conceded = []
+        while running := self.running():
+            conceded.append(self.concede(running[0]))
+        return conceded
+
+
+@pytest.fixture
+def cup(organiser, new_player):
+    return lambda *args, **terms: Cup(organiser, new_player, *args, **terms)
+
+
+def test_an_event_runs_from_start_to_finish(cup):
+    event = cup()
+    assert event.read()["status"] == "created"
+    assert event.running() == []
+    assert event.act("start").json()["status"] == "running"
+    assert len(event.running()) == 1  # three players: two of them meet, and nobody plays two games at once
+    event.play_out()
+    view = event.read()
+    assert (view["status"], view["games"], view["due"]) == ("finished", 6, 0)
+    assert view["started_at"] < view["ended_at"]
+    lines = event.read("/standings")["standings"]
+    assert [line["points"] for line in lines] == [2.0, 2.0, 2.0]  # everybody conceded every own break
+    assert {line["agent"] for line in lines} == {player.id for player in event.players.values()}
+
+
+def test_both_games_of_a_pair_have_the_racks_and_the_noise_of_the_events_seed(cup, organiser):
+    event = cup(("ann", "bob"))
+    event.act("start")
+    games = event.play_out()
+    spec = Spec.from_dict(event.terms)
+    (pair,) = Event(spec).pairs
+    for leg, game in enumerate(games):
+        text = organiser.get(f"/v1/games/{game}/record").text
+        assert verify_record(text.splitlines()).ok
+        seeds, record = game_seeds(spec, pair, leg), read_record(text.splitlines())
+        assert record.end["noise_secret"] == seeds.noise.hex()
+        assert record.header["start"]["breaker"] == leg
+        assert record.header["players"] != ["seat 0", "seat 1"]
+
+
+def test_the_seed_is_a_secret_until_the_end(cup, organiser):
+    event = cup(("ann", "bob"))
+    assert "seed" not in event.read()["terms"]
+    event.act("start")
+    assert "seed" not in organiser.get(f"/v1/tournaments/{event.id}").json()["terms"]
+    event.play_out()
+    assert event.read()["terms"]["seed"] == 5
+
+
+def test_an_unknown_level_of_noise_is_a_secret_until_the_end(cup):
+    event = cup(("ann", "bob"), noise={"levels": [3.0], "told": False})
+    event.act("start")
+    assert event.running()[0]["noise"] is None
+    event.play_out()
+    assert {game["noise"] for game in event.read()["played"]} == {3.0}
+
+
+def test_a_pause_lets_games_end_and_begins_none(cup):
+    event = cup(("ann", "bob"))
+    assert event.act("pause").status_code == 409
+    event.act("start")
+    assert event.act("pause").json()["status"] == "paused"
+    event.concede(event.running()[0])
+    assert event.running() == []
+    assert event.act("start").json()["status"] == "running"
+    assert len(event.running()) == 1
+
+
+def test_an_aborted_event_calls_its_matches_off(cup, organiser):
+    event = cup()
+    event.act("start")
+    (game,) = event.running()
+    assert event.act("abort").json()["status"] == "aborted"
+    assert organiser.get(f"/v1/matches/{game['match']}").json()["status"] == "aborted"
+    assert event.running() == [game]  # it never got a result
+    assert event.act("start").status_code == 409
+
+
+def test_a_match_that_is_called_off_is_played_again(cup, organiser):
+    event = cup(("ann", "bob"))
+    event.act("start")
+    (game,) = event.running()
+    organiser.post(f"/v1/matches/{game['match']}/abort")
+    (again,) = event.running()
+    assert (again["pair"], again["leg"], again["attempt"]) == (game["pair"], game["leg"], 1)
+    assert again["match"] != game["match"]
+
+
+def test_a_void_game_is_played_again(cup):
+    event = cup(("ann", "bob"))
+    event.act("start")
+    event.concede(event.running()[0])
+    view = event.act("void", {"pair": "r0-m0-p0", "leg": 0, "reason": "wrong table"}).json()
+    assert [game["status"] for game in view["played"]] == ["void", "running"]
+    assert view["log"][-1]["fields"]["reason"] == "wrong table"
+    event.play_out()
+    assert [(game["leg"], game["attempt"], game["status"]) for game in event.read()["played"]] == [
+        (0, 0, "void"),
+        (0, 1, "finished"),
+        (1, 0, "finished"),
+    ]
+
+
+def test_who_is_disqualified_leaves_the_game_and_the_event(cup, organiser):
+    event = cup()
+    event.act("start")
+    (game,) = event.running()
+    loser = game["players"][0]
+    assert event.act("disqualify", {"name": loser, "reason": "two accounts"}).status_code == 200
+    assert organiser.get(f"/v1/matches/{game['match']}").json()["status"] == "aborted"
+    event.play_out()
+    assert event.read()["status"] == "finished"
+    assert {line["name"]: line["withdrawn"] for line in event.read("/standings")["standings"]}[loser]
+
+
+@pytest.mark.parametrize(
+    ("terms", "agents", "field"),
+    [
+        ({"pairs": 0}, {}, "terms.pairs"),
+        ({"name": ""}, {}, "terms.name"),
+        ({"noise": {"levels": [9]}}, {}, "terms.noise.levels"),
+        ({"sed": 3}, {}, "terms.event"),
+        ({"table": {"name": "olympiad", "mu_slide": -1}}, {}, "terms.table.mu_slide"),
+        ({}, {"ann": "agent_0"}, "agents.ann"),
+        ({}, {"nobody": "agent_0"}, "agents"),
+    ],
+)
+def test_bad_terms_are_named(organiser, new_player, terms, agents, field):
+    players = {name: new_player().id for name in ("ann", "bob")}
+    body = {"terms": {"name": "Cup", "entrants": ["ann", "bob"], **terms}, "agents": players | agents}
+    response = organiser.post("/v1/tournaments", body)
+    assert response.status_code == 422, response.text
+    assert response.json()["field"] == field
+
+
+def test_decisions_are_checked_and_carried_out_once(cup, organiser):
+    event = cup(("ann", "bob"))
+    first = event.act("start", key="once")
+    assert event.act("start", key="once").text == first.text
+    assert event.act("start").status_code == 409
+    bad = event.act("void", {"pair": "r0-m0-p0", "leg": 0})
+    assert (bad.status_code, bad.json()["field"]) == (422, "pair")
+    assert event.act("disqualify", {"name": "zoe"}).status_code == 422
+    assert organiser.get("/v1/tournaments/none").status_code == 404
+    assert organiser.get("/v1/tournaments", status="odd").status_code == 422
+
+
+def test_players_do_not_organise(cup):
+    event = cup(("ann", "bob"))
+    ann = event.players["ann"]
+    assert ann.post("/v1/tournaments", {"terms": event.terms}).status_code == 403
+    for verb in ("start", "pause", "abort"):
+        assert ann.post(f"/v1/tournaments/{event.id}/{verb}").status_code == 403
+    assert ann.get(f"/v1/tournaments/{event.id}").status_code == 200
+
+
+def test_events_are_listed_the_newest_first(cup, organiser):
+    first, second = cup(("ann", "bob")), cup(("ann", "bob"))
+    page = organiser.get("/v1/tournaments", limit=2).json()
+    assert [each["id"] for each in page["tournaments"]] == [second.id, first.id]
+    assert organiser.get("/v1/tournaments", limit=1, cursor=page["next_cursor"]).status_code == 200
+
+
+def test_an_event_goes_on_after_the_server_was_killed(own_server, organiser):
+    """The result and the next match are written in the transaction of the last stroke."""
+    server, made = own_server(), itertools.count()
+    player = type(organiser)
+
+    def register():
+        entry = server.request("POST", "/v1/agents", json={"name": f"player {next(made)}"}).json()
+        return player(server, entry["agent"]["id"], entry["token"])
+
+    event = Cup(player(server, "organiser", organiser.token), register, ("ann", "bob"))
+    event.act("start")
+    event.concede(event.running()[0])
+    server.restart(signal.SIGKILL)
+    assert event.read()["games"] == 1
+    event.play_out()
+    assert event.read()["status"] == "finished"
