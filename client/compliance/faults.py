@@ -4,12 +4,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 from typing import Any
+from urllib.parse import parse_qsl
 
 from client.compliance.proxy import RETRY_AFTER, Exchange
 from client.compliance.situations import Situation, Twist
 
-MOST_POLLS = 20
-"""Empty answers to polls in one second; more is a busy loop and no long poll."""
+MOST_POLLS = 5
+"""Empty answers in a row to polls that do not ask the server to wait; more, without a pause, is a busy loop."""
+PAUSE = 0.25
+"""Seconds between an empty answer and the next poll that count as a pause."""
 SHOWN = 300
 """Characters of an answer that a fault repeats."""
 
@@ -79,7 +82,7 @@ def _all(situation: Situation, seen: Sequence[Exchange]) -> Iterator[Fault]:
             yield Fault(FaultName.CONCEDES, situation.name, "the game is not lost")
     yield from _reactions(situation, seen, actions)
     if _is_hammering(seen):
-        yield Fault(FaultName.HAMMERS, situation.name, f"over {MOST_POLLS} empty polls in a second; use ?wait=30")
+        yield Fault(FaultName.HAMMERS, situation.name, f"over {MOST_POLLS} empty polls at once; use ?wait=30")
 
 
 def _named(situation: Situation, one: Exchange, seen: Sequence[Exchange]) -> FaultName | None:
@@ -118,5 +121,19 @@ def _reactions(situation: Situation, seen: Sequence[Exchange], actions: Sequence
 
 
 def _is_hammering(seen: Sequence[Exchange]) -> bool:
-    empty = [one.at for one in seen if one.path == "/v1/turns" and one.status == 204]
-    return any(later - earlier < 1.0 for earlier, later in zip(empty, empty[MOST_POLLS:], strict=False))
+    """Polls that come back empty at once, one right after the other."""
+    in_a_row, last = 0, 0.0
+    for one in (one for one in seen if one.path == "/v1/turns"):
+        hasty = one.status == 204 and one.at - last < PAUSE and _asked_wait(one) < 1.0
+        in_a_row, last = (in_a_row + 1 if hasty else 0), one.done
+        if in_a_row > MOST_POLLS:
+            return True
+    return False
+
+
+def _asked_wait(poll: Exchange) -> float:
+    """Seconds that the server was asked to wait for news."""
+    try:
+        return float(dict(parse_qsl(poll.query)).get("wait", 0.0))
+    except ValueError:
+        return 0.0

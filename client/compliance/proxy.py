@@ -25,7 +25,7 @@ class Exchange:
 
     Attributes:
         at: s, `time.monotonic`, when the request was complete. done: when it was answered.
-        method, path, headers, body: of the request; header names in lower case.
+        method, path, query, headers, body: of the request; header names in lower case.
         status: of the answer; 0 when the connection was cut.
         code: of the problem, if it was one. answer: the body.
         twisted: whether the answer is the proxy's and not the server's.
@@ -35,6 +35,7 @@ class Exchange:
     done: float
     method: str
     path: str
+    query: str
     headers: dict[str, str]
     body: bytes
     status: int
@@ -136,17 +137,19 @@ class Proxy:
     ) -> None:
         status = 0 if response is None else response.status_code
         answer = b"" if response is None else response.content
+        bare, _, query = path.partition("?")
         exchange = Exchange(
-            at,
-            time.monotonic(),
-            method,
-            path.partition("?")[0],
-            headers,
-            body,
-            status,
-            _code(status, answer),
-            answer,
-            twisted,
+            at=at,
+            done=time.monotonic(),
+            method=method,
+            path=bare,
+            query=query,
+            headers=headers,
+            body=body,
+            status=status,
+            code=_code(status, answer),
+            answer=answer,
+            twisted=twisted,
         )
         with self._lock:
             self._seen.append(exchange)
