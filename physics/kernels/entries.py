@@ -42,7 +42,7 @@ from physics.kernels.loop import go_on, play
 from physics.kernels.recording import write_state
 from physics.kernels.resolve.cloth import begin
 from physics.kernels.start import place, put_away, restore
-from physics.kernels.strike import MILLIMETRE, lowest_elevation, obstacle, unplayable
+from physics.kernels.strike import MILLIMETRE, direction, lowest_elevation, obstacle, unplayable
 from physics.kernels.tolerances import TOUCH
 
 entry = numba.njit(error_model="numpy", nogil=True, cache=bool(numba.config.CACHE_DIR))
@@ -162,8 +162,9 @@ def check_shot(p, w, k, positions, shot):
     place(table, floats, integers, row(positions, 0))
     v, phi, theta = shot[0, 0], shot[0, 1], shot[0, 2]
     a, b = shot[0, 3] * MILLIMETRE, shot[0, 4] * MILLIMETRE
-    status = unplayable(table, floats, integers, v, phi, theta, a, b)
-    return status, obstacle(table, floats, integers, phi, theta, a, b) if status == 1 else -1
+    aim = direction(phi, theta)
+    status = unplayable(table, floats, integers, v, theta, aim, a, b)
+    return status, obstacle(table, floats, aim, a, b) if status == 1 else -1
 
 
 @entry
@@ -171,7 +172,7 @@ def elevation_needed(p, w, k, positions, phi, a, b):
     """Smallest free elevation in deg, NaN if none; a and b in mm, on the ball."""
     table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
     place(table, floats, integers, row(positions, 0))
-    return lowest_elevation(table, floats, integers, phi, a * MILLIMETRE, b * MILLIMETRE)
+    return lowest_elevation(table, floats, phi, a * MILLIMETRE, b * MILLIMETRE)
 
 
 @entry

@@ -23,7 +23,7 @@ W_SIZE = CLOSING + 120
 MOTION = 0  # motion state, see below
 KIND = 16  # kind of the next event
 PARTNER = 32  # ball, cushion or pocket of the next event
-FROZEN = 48  # cushion the ball has touched since the start without leaving it, plus 1; else 0
+FROZEN = 48  # for a ball in FROZEN_BALLS: the cushion
 LINKS = 64  # scratch of the contact rule: active pairs at each ball
 
 # --- int64 scalars -----------------------------------------------------------------------------------
@@ -34,6 +34,7 @@ CROSSED = 83  # whether the cue ball has crossed the head string
 STRETCH = 84  # event that opened the cue ball's present stretch
 CUSHION_SEEN, CUSHION_AFTER_SEEN = 85, 86  # bit sets of balls
 N_PAIRS = 87  # touching pairs of the cluster
+FROZEN_BALLS = 92  # bit set of the balls that have touched a cushion since the start without leaving it
 LOOKS, PAIRS_LEFT, SOLVES, CUSHION_LOOKS = 88, 89, 90, 91  # counters of work
 PAIRS = 96  # touching pairs of a cluster: first ball * 16 + second ball
 K_SIZE = PAIRS + 120

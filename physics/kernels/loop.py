@@ -47,7 +47,7 @@ from physics.kernels.resolve.cloth import transition
 from physics.kernels.resolve.cluster import FAILED, NOBODY, restate, settle
 from physics.kernels.resolve.touching import NO_CUSHION, bring, touched_cushion
 from physics.kernels.start import note_frozen, note_start, place, put_away, reset, restore
-from physics.kernels.strike import MILLIMETRE, strike, unplayable
+from physics.kernels.strike import MILLIMETRE, direction, strike, unplayable
 from physics.kernels.tolerances import EVENT_LIMIT, STEP_LIMIT
 
 AT_REST, TOO_MANY_EVENTS = 0, 5
@@ -55,11 +55,16 @@ AT_REST, TOO_MANY_EVENTS = 0, 5
 
 
 @small_kernel
+def least_of_four(w, at):
+    """The least of four numbers from place ``at`` on: no chain of sixteen comparisons that wait for each other."""
+    return min(min(load(w, at), load(w, at + 1)), min(load(w, at + 2), load(w, at + 3)))
+
+
+@small_kernel
 def earliest(w, k):
     """Ball with the earliest next event, and its time. Ties: ball, cushion, pocket, transition, lowest number."""
-    time = load(w, NEXT)
-    for i in range(1, LANES):
-        time = min(time, load(w, NEXT + i))
+    time = min(least_of_four(w, NEXT), least_of_four(w, NEXT + 4))
+    time = min(time, min(least_of_four(w, NEXT + 8), least_of_four(w, NEXT + 12)))
     due = 0
     for i in range(LANES):
         due |= int(load(w, NEXT + i) == time) << i
@@ -169,10 +174,11 @@ def play(p, w, k, facts, facts_float, trace, rows, positions, shot):
     note_frozen(p, w, k, facts, alive)
     v, phi, theta = load(shot, 0), load(shot, 1), load(shot, 2)
     a, b = load(shot, 3) * MILLIMETRE, load(shot, 4) * MILLIMETRE
-    status = unplayable(p, w, k, v, phi, theta, a, b)
+    aim = direction(phi, theta)
+    status = unplayable(p, w, k, v, theta, aim, a, b)
     if status != AT_REST:
         return finish(k, facts, facts_float, status, 0.0)
-    vx, vy, wx, wy, wz = strike(p, v, phi, theta, a, b)
+    vx, vy, wx, wy, wz = strike(p, v, aim, a, b)
     store(w, VX, vx)
     store(w, VY, vy)
     store(w, WX, wx)

@@ -5,6 +5,7 @@ import math
 from physics.kernels.compiling import (
     kernel,
     load,
+    load_integer,
     lowest_bit,
     plain,
     small_kernel,
@@ -25,6 +26,7 @@ from physics.kernels.layout import (
     F_FROZEN_CUSHION,
     F_INTEGERS,
     FROZEN,
+    FROZEN_BALLS,
     HX,
     HY,
     KIND,
@@ -85,7 +87,6 @@ def clear(w, k):
         store(w, NEXT + i, math.inf)
         store_integer(k, MOTION + i, ABSENT)
         store_integer(k, KIND + i, NOTHING)
-        store_integer(k, FROZEN + i, 0)
 
 
 @kernel
@@ -160,7 +161,8 @@ def note_frozen(p, w, k, facts, alive):
         rest &= rest - 1
         cushion = touched_cushion(p, w, k, i)
         if cushion != NO_CUSHION:
-            store_integer(k, FROZEN + i, cushion + 1)
+            store_integer(k, FROZEN + i, cushion)
+            store_integer(k, FROZEN_BALLS, load_integer(k, FROZEN_BALLS) | 1 << i)
             store_fact(facts, F_FROZEN_CUSHION + i, 1)
 
 

@@ -8,7 +8,7 @@ With c = sqrt(R^2 - a^2 - b^2), C = cos theta, S = sin theta and offsets a, b in
 
 import math
 
-from physics.kernels.compiling import kernel, load, load_integer, small_kernel
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel
 from physics.kernels.layout import (
     ABSENT,
     LANES,
@@ -42,15 +42,22 @@ THROUGH_CUE_BALL = 16
 
 
 @small_kernel
-def strike(p, v, phi, theta, a, b):
+def direction(phi, theta):
+    """The cue's direction: (cos phi, sin phi, cos theta, sin theta) from its angles in deg."""
+    sin_phi, cos_phi = sine_cosine(phi)
+    sin_theta, cos_theta = sine_cosine(theta)
+    return cos_phi, sin_phi, cos_theta, sin_theta
+
+
+@small_kernel
+def strike(p, v, aim, a, b):
     """Velocity (vx, vy) in m/s and spin (wx, wy, wz) in rad/s of the cue ball after the strike.
 
-    ``v`` m/s, ``phi`` and ``theta`` deg, ``a`` and ``b`` metres; the tip must be on the ball.
+    ``v`` m/s, ``aim`` from ``direction``, ``a`` and ``b`` metres; the tip must be on the ball.
     """
     radius = load(p, P_RADIUS)
     depth = math.sqrt(radius * radius - a * a - b * b)
-    dy, dx = sine_cosine(phi)
-    sin_theta, cos_theta = sine_cosine(theta)
+    dx, dy, cos_theta, sin_theta = aim
     lever = b * cos_theta - depth * sin_theta
     bracket = (a * a + lever * lever) * load(p, P_BRACKET)
     force = 2.0 * v / (1.0 + load(p, P_MASS_RATIO) + 2.5 / (radius * radius) * bracket)  # F / m
@@ -88,26 +95,29 @@ def below_nose(start, step, line, height, rise, length, nose):
 
 
 @kernel
-def obstacle(p, w, k, phi, theta, a, b):
+def obstacle(p, w, aim, a, b):
     """What blocks the cue: NOBODY, or the number of the first obstacle. ``a`` and ``b`` in metres.
+
+    Balls off the table lie far away and block nothing.
 
     The cue is the segment from the tip r - c d - a l, at height R + b, along (-C d, S).
     """
     radius = load(p, P_RADIUS)
     depth = math.sqrt(radius * radius - a * a - b * b)
-    dy, dx = sine_cosine(phi)
-    sin_theta, cos_theta = sine_cosine(theta)
+    dx, dy, cos_theta, sin_theta = aim
     if depth * cos_theta + b * sin_theta <= 0.0:
         return THROUGH_CUE_BALL
     length = load(p, P_CUE_LENGTH)
     ux, uy = -cos_theta * dx, -cos_theta * dy
     tip_x = load(w, X) - depth * dx + a * dy
     tip_y = load(w, Y) - depth * dy - a * dx
-    for ball in range(1, LANES):
-        if load_integer(k, MOTION + ball) < POCKETED and blocked_by_ball(
-            load(w, X + ball) - tip_x, load(w, Y + ball) - tip_y, -b, ux, uy, sin_theta, length, radius
-        ):
-            return ball
+    blocking = 0
+    for ball in range(LANES):
+        px, py = load(w, X + ball) - tip_x, load(w, Y + ball) - tip_y
+        blocking |= int(blocked_by_ball(px, py, -b, ux, uy, sin_theta, length, radius)) << ball
+    blocking &= ~1
+    if blocking != 0:
+        return lowest_bit(blocking)
     half_x, half_y, nose = load(p, P_HALF_X), load(p, P_HALF_Y), load(p, P_NOSE)
     height = radius + b
     if below_nose(tip_x, ux, -half_x, height, sin_theta, length, nose):
@@ -122,8 +132,8 @@ def obstacle(p, w, k, phi, theta, a, b):
 
 
 @kernel
-def unplayable(p, w, k, v, phi, theta, a, b):
-    """Status number of a shot that cannot be played, or 0. ``a`` and ``b`` in metres."""
+def unplayable(p, w, k, v, theta, aim, a, b):
+    """Status number of a shot that cannot be played, or 0. ``theta`` in deg, ``a`` and ``b`` in metres."""
     radius = load(p, P_RADIUS)
     if not (0.0 <= v <= load(p, P_V_MAX) and 0.0 <= theta <= load(p, P_THETA_MAX)):
         return OUT_OF_RANGE
@@ -131,28 +141,28 @@ def unplayable(p, w, k, v, phi, theta, a, b):
         return NO_CUE_BALL
     if a * a + b * b > radius * radius:
         return TIP_OFF_BALL
-    if load(p, P_CUE_TEST) != 0.0 and obstacle(p, w, k, phi, theta, a, b) != NOBODY:
+    if load(p, P_CUE_TEST) != 0.0 and obstacle(p, w, aim, a, b) != NOBODY:
         return CUE_OBSTRUCTED
     return PLAYABLE
 
 
 @kernel
-def lowest_elevation(p, w, k, phi, a, b):
+def lowest_elevation(p, w, phi, a, b):
     """Smallest elevation in degrees at which nothing blocks the cue, NaN if none.
 
     The free elevations need not be one interval (a low tip passes under a ball's widest part), so they are looked
     for in steps of 1/8 deg and the edge of the first found is bisected to the last bit.
     """
-    if obstacle(p, w, k, phi, 0.0, a, b) == NOBODY:
+    if obstacle(p, w, direction(phi, 0.0), a, b) == NOBODY:
         return 0.0
     top = load(p, P_THETA_MAX)
     low = 0.0
     while low < top:
         high = min(low + 0.125, top)
-        if obstacle(p, w, k, phi, high, a, b) == NOBODY:
+        if obstacle(p, w, direction(phi, high), a, b) == NOBODY:
             middle = 0.5 * (low + high)
             while low < middle < high:
-                if obstacle(p, w, k, phi, middle, a, b) == NOBODY:
+                if obstacle(p, w, direction(phi, middle), a, b) == NOBODY:
                     high = middle
                 else:
                     low = middle

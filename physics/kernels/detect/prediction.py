@@ -54,6 +54,9 @@ from physics.kernels.layout import (
 from physics.kernels.resolve.cushion import EAST, NORTH, SOUTH, WEST
 from physics.kernels.tolerances import TOUCH
 
+FOREVER = 1e6
+"""s. The filter's horizon for a ball without an event of its own: finite, so that 0 m/s times it is 0 m."""
+
 POCKET_SW, POCKET_W, POCKET_NW, POCKET_NE, POCKET_E, POCKET_SE = 0, 1, 2, 3, 4, 5
 
 
@@ -137,6 +140,7 @@ def partners(w, x, y, vx, vy, hx, hy, now, limit, diameter):
     control points c, c + b H/2, c + b H + a H^2. A pair cannot meet if the triangle comes no nearer along c, if it
     stays more than the diameter away along c, or beside b. Bits 16 to 31: the balls it touches now.
     """
+    limit = min(limit, FOREVER)
     squared = diameter * diameter
     touching = (diameter + TOUCH) * (diameter + TOUCH)
     found = 0

@@ -18,9 +18,9 @@ from physics.kernels.layout import (
     CONTACT,
     CONTACT_SEEN,
     FROZEN,
+    FROZEN_BALLS,
     HX,
     HY,
-    LANES,
     N_PAIRS,
     P_REST_TIME,
     P_SLIDE,
@@ -73,12 +73,14 @@ def restate(p, w, k, changed):
 @kernel
 def free_from_cushions(w, k, members):
     """Forget that a ball was frozen to a cushion at the start once it is leaving it."""
-    for i in range(LANES):
-        frozen = load_integer(k, FROZEN + i) - 1
-        if members >> i & 1 and frozen >= 0:
-            speed = towards_cushion(w, frozen, VX, VY, i)
-            if speed < 0.0 or (speed == 0.0 and towards_cushion(w, frozen, HX, HY, i) < 0.0):
-                store_integer(k, FROZEN + i, 0)
+    rest = members & load_integer(k, FROZEN_BALLS)
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        cushion = load_integer(k, FROZEN + i)
+        speed = towards_cushion(w, cushion, VX, VY, i)
+        if speed < 0.0 or (speed == 0.0 and towards_cushion(w, cushion, HX, HY, i) < 0.0):
+            store_integer(k, FROZEN_BALLS, load_integer(k, FROZEN_BALLS) & ~(1 << i))
 
 
 @small_kernel
@@ -110,7 +112,7 @@ def rebound_and_report(p, w, k, facts, trace, i, cushion, time):
     rebound(p, w, i, cushion)
     restate(p, w, k, 1 << i)
     event = record(w, k, trace, time, plain(RAIL_COLLISION), i, cushion)
-    if load_integer(k, FROZEN + i) - 1 != cushion:
+    if not (load_integer(k, FROZEN_BALLS) >> i & 1 and load_integer(k, FROZEN + i) == cushion):
         note_cushion(k, facts, i, event)
 
 
