@@ -111,13 +111,14 @@ def contact(cx, cy, bx, by, ax, ay, t_max, limit, diameter):
     apart; touching and approaching (0), opening, or neither; overlapping balls meet where they overlap as much again.
     """
     squared = cx * cx + cy * cy
+    reached = diameter * diameter
     near = diameter + TOUCH
-    if squared > near * near:
-        return first_root(cx, cy, bx, by, ax, ay, t_max, limit, diameter * diameter)
-    distance = math.sqrt(squared)
-    opening = (cx * bx + cy * by) / distance
-    if opening < -SLOW_APPROACH and distance <= diameter:
-        return 0.0
-    if abs(opening) <= SLOW_APPROACH:
-        return settled_root(cx, cy, bx, by, ax, ay, t_max, limit, diameter)
-    return first_root(cx, cy, bx, by, ax, ay, t_max, limit, min(squared, diameter * diameter))
+    if squared <= near * near:
+        distance = math.sqrt(squared)
+        opening = (cx * bx + cy * by) / distance
+        if opening < -SLOW_APPROACH and distance <= diameter:
+            return 0.0
+        if abs(opening) <= SLOW_APPROACH:
+            return settled_root(cx, cy, bx, by, ax, ay, t_max, limit, diameter)
+        reached = min(squared, reached)
+    return first_root(cx, cy, bx, by, ax, ay, t_max, limit, reached)

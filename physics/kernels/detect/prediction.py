@@ -87,7 +87,7 @@ def in_side_mouth(p, y, vy, hy, t):
     return abs(along(y, vy, hy, t)) < load(p, P_SIDE)
 
 
-@kernel
+@small_kernel
 def meet_boundary(p, k, x, y, vx, vy, hx, hy, lasts):
     """First cushion or mouth a moving ball reaches within ``lasts``: (time, kind, number); time infinite if none."""
     best, kind, number = lasts, NOTHING, 0
@@ -132,7 +132,7 @@ def meet_boundary(p, k, x, y, vx, vy, hx, hy, lasts):
     return best, kind, number
 
 
-@kernel
+@small_kernel
 def partners(w, x, y, vx, vy, hx, hy, now, limit, diameter):
     """Bit set of the balls whose path may meet this one before either's next event.
 
@@ -229,7 +229,7 @@ def predict(p, w, k, alive, i, now):
     return lanes >> LANES & others
 
 
-@kernel
+@small_kernel
 def meeting(w, k, j, x, y, vx, vy, hx, hy, now, lasts, other_moves, best, diameter):
     """Time at which ball ``j`` meets the ball at (x, y) if that is before ``best`` and j's next event, else infinity.
 
