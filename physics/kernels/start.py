@@ -77,15 +77,12 @@ def put_away(w, k, i, motion):
 
 @small_kernel
 def clear(w, k):
-    """No ball is on the table."""
+    """Nothing moves and nothing is to come."""
     for n in range(VX, END):
         store(w, n, 0.0)
     for i in range(LANES):
-        store(w, X + i, FAR_AWAY * float(i + 1))
-        store(w, Y + i, 0.0)
         store(w, END + i, math.inf)
         store(w, NEXT + i, math.inf)
-        store_integer(k, MOTION + i, ABSENT)
         store_integer(k, KIND + i, NOTHING)
 
 
@@ -97,13 +94,14 @@ def place(p, w, k, positions):
     """
     clear(w, k)
     alive = 0
+    half_x, half_y = load(p, P_HALF_X), load(p, P_HALF_Y)
     for i in range(LANES):
-        x = load(positions, 2 * i)
-        if x == x:
-            store_integer(k, MOTION + i, STATIONARY)
-            store(w, X + i, x - load(p, P_HALF_X))
-            store(w, Y + i, load(positions, 2 * i + 1) - load(p, P_HALF_Y))
-            alive |= 1 << i
+        x, y = load(positions, 2 * i), load(positions, 2 * i + 1)
+        there = x == x
+        store_integer(k, MOTION + i, STATIONARY if there else ABSENT)
+        store(w, X + i, x - half_x if there else FAR_AWAY * float(i + 1))
+        store(w, Y + i, y - half_y if there else 0.0)
+        alive |= int(there) << i
     return alive
 
 
@@ -119,6 +117,8 @@ def restore(p, w, k, states):
         at = i * STATE_WIDTH
         motion = int(load(states, at + 7))
         store_integer(k, MOTION + i, motion)
+        store(w, X + i, FAR_AWAY * float(i + 1))
+        store(w, Y + i, 0.0)
         if motion < POCKETED:
             store(w, X + i, load(states, at) - load(p, P_HALF_X))
             store(w, Y + i, load(states, at + 1) - load(p, P_HALF_Y))
