@@ -67,15 +67,6 @@ def moves(motion):
 
 
 @small_kernel
-def earlier_corner(p, x, y, vx, vy, hx, hy, sx, sy, best):
-    """Time until the corner mouth in direction (sx, sy) if it is before ``best``, else infinity."""
-    speed = sx * vx + sy * vy
-    half = sx * hx + sy * hy
-    gap = load(p, P_CORNER) - (sx * x + sy * y)
-    return crossing(max(gap, 0.0), speed, half) if reaches(gap, speed, half, best) else math.inf
-
-
-@small_kernel
 def reaches(gap, speed, half, lasts):
     """Whether a path may close ``gap`` within ``lasts``: a bound without a square root, exact unless it slows down."""
     return lasts * (speed + lasts * max(half, 0.0)) >= gap
@@ -88,47 +79,65 @@ def in_side_mouth(p, y, vy, hy, t):
 
 
 @small_kernel
+def lines_in_reach(p, x, y, vx, vy, hx, hy, lasts):
+    """Bit set of the cushion lines the path may reach within ``lasts``."""
+    line_x, line_y = load(p, P_LINE_X), load(p, P_LINE_Y)
+    return (
+        int(reaches(line_x + x, -vx, -hx, lasts)) << WEST
+        | int(reaches(line_x - x, vx, hx, lasts)) << EAST
+        | int(reaches(line_y + y, -vy, -hy, lasts)) << SOUTH
+        | int(reaches(line_y - y, vy, hy, lasts)) << NORTH
+    )
+
+
+@small_kernel
+def corners_in_reach(p, x, y, vx, vy, hx, hy, lasts):
+    """Bit set of the corner mouths whose line the path may reach within ``lasts``."""
+    line = load(p, P_CORNER)
+    return (
+        int(reaches(line - (-x - y), -vx - vy, -hx - hy, lasts)) << POCKET_SW
+        | int(reaches(line - (y - x), vy - vx, hy - hx, lasts)) << POCKET_NW
+        | int(reaches(line - (x + y), vx + vy, hx + hy, lasts)) << POCKET_NE
+        | int(reaches(line - (x - y), vx - vy, hx - hy, lasts)) << POCKET_SE
+    )
+
+
+@small_kernel
 def meet_boundary(p, k, x, y, vx, vy, hx, hy, lasts):
     """First cushion or mouth a moving ball reaches within ``lasts``: (time, kind, number); time infinite if none."""
     best, kind, number = lasts, NOTHING, 0
-    line_x, line_y = load(p, P_LINE_X), load(p, P_LINE_Y)
-    if reaches(line_x - x, vx, hx, best):
-        t = crossing(max(line_x - x, 0.0), vx, hx)
-        if t < best:
-            mouth = in_side_mouth(p, y, vy, hy, t)
-            best, kind, number = t, MEET_POCKET if mouth else MEET_CUSHION, POCKET_E if mouth else EAST
-    if reaches(line_x + x, -vx, -hx, best):
-        t = crossing(max(line_x + x, 0.0), -vx, -hx)
-        if t < best:
-            mouth = in_side_mouth(p, y, vy, hy, t)
-            best, kind, number = t, MEET_POCKET if mouth else MEET_CUSHION, POCKET_W if mouth else WEST
-    if reaches(line_y - y, vy, hy, best):
-        t = crossing(max(line_y - y, 0.0), vy, hy)
-        if t < best:
-            best, kind, number = t, MEET_CUSHION, NORTH
-    if reaches(line_y + y, -vy, -hy, best):
-        t = crossing(max(line_y + y, 0.0), -vy, -hy)
-        if t < best:
-            best, kind, number = t, MEET_CUSHION, SOUTH
+    store_integer(k, CUSHION_LOOKS, load_integer(k, CUSHION_LOOKS) + 1)
+    line_x = load(p, P_LINE_X)
+    rest = lines_in_reach(p, x, y, vx, vy, hx, hy, lasts)
+    while rest != 0:
+        line = lowest_bit(rest)
+        rest &= rest - 1
+        sign = 1.0 if line & 1 else -1.0
+        if line <= EAST:
+            t = crossing(max(line_x - sign * x, 0.0), sign * vx, sign * hx)
+            if t < best:
+                mouth = in_side_mouth(p, y, vy, hy, t)
+                best, kind = t, MEET_POCKET if mouth else MEET_CUSHION
+                number = (POCKET_E if line == EAST else POCKET_W) if mouth else line
+        else:
+            t = crossing(max(load(p, P_LINE_Y) - sign * y, 0.0), sign * vy, sign * hy)
+            if t < best:
+                best, kind, number = t, MEET_CUSHION, line
     if abs(x) >= line_x - TOUCH and abs(y) >= load(p, P_SIDE):
         # Running along a long cushion: the mouth opens at its horn.
         side = 1.0 if y > 0.0 else -1.0
         t = crossing(abs(y) - load(p, P_SIDE), -side * vy, -side * hy)
         if t < best and abs(along(x, vx, hx, t)) >= line_x - TOUCH:
             best, kind, number = t, MEET_POCKET, POCKET_E if x > 0.0 else POCKET_W
-    store_integer(k, CUSHION_LOOKS, load_integer(k, CUSHION_LOOKS) + 1)
-    t = earlier_corner(p, x, y, vx, vy, hx, hy, -1.0, -1.0, best)
-    if t < best:
-        best, kind, number = t, MEET_POCKET, POCKET_SW
-    t = earlier_corner(p, x, y, vx, vy, hx, hy, -1.0, 1.0, best)
-    if t < best:
-        best, kind, number = t, MEET_POCKET, POCKET_NW
-    t = earlier_corner(p, x, y, vx, vy, hx, hy, 1.0, 1.0, best)
-    if t < best:
-        best, kind, number = t, MEET_POCKET, POCKET_NE
-    t = earlier_corner(p, x, y, vx, vy, hx, hy, 1.0, -1.0, best)
-    if t < best:
-        best, kind, number = t, MEET_POCKET, POCKET_SE
+    rest = corners_in_reach(p, x, y, vx, vy, hx, hy, best)
+    while rest != 0:
+        corner = lowest_bit(rest)
+        rest &= rest - 1
+        sx = 1.0 if corner >= POCKET_NE else -1.0
+        sy = 1.0 if POCKET_NW <= corner <= POCKET_NE else -1.0
+        t = crossing(max(load(p, P_CORNER) - (sx * x + sy * y), 0.0), sx * vx + sy * vy, sx * hx + sy * hy)
+        if t < best:
+            best, kind, number = t, MEET_POCKET, corner
     return best, kind, number
 
 
@@ -150,21 +159,22 @@ def partners(w, x, y, vx, vy, hx, hy, now, limit, diameter):
         by = load(w, VY + j)
         ax = load(w, HX + j)
         ay = load(w, HY + j)
-        cx = load(w, X + j) + dt * (bx + dt * ax) - x
-        cy = load(w, Y + j) + dt * (by + dt * ay) - y
-        bx = bx + 2.0 * dt * ax - vx
-        by = by + 2.0 * dt * ay - vy
+        half_x, half_y = dt * ax, dt * ay
+        cx = load(w, X + j) + dt * (bx + half_x) - x
+        cy = load(w, Y + j) + dt * (by + half_y) - y
+        bx = bx + (half_x + half_x) - vx
+        by = by + (half_y + half_y) - vy
         ax = ax - hx
         ay = ay - hy
         horizon = min(limit, load(w, NEXT + j)) - now
         cc = cx * cx + cy * cy
-        middle = 0.5 * horizon * (cx * bx + cy * by)
-        end = 2.0 * middle + horizon * horizon * (cx * ax + cy * ay)
-        nearer = min(middle, end)
+        end_x, end_y = horizon * ax, horizon * ay
+        to_middle = horizon * (cx * bx + cy * by)
+        nearer = min(0.5 * to_middle, to_middle + horizon * (cx * end_x + cy * end_y))
         least = cc + nearer
         along_c = (nearer >= 0.0) | ((least > 0.0) & (least * least > squared * cc))
         beside = cx * by - cy * bx
-        at_end = beside + horizon * horizon * (ax * by - ay * bx)
+        at_end = beside + horizon * (end_x * by - end_y * bx)
         aside = (beside * at_end > 0.0) & (min(beside * beside, at_end * at_end) > squared * (bx * bx + by * by))
         found |= int(not (along_c | aside)) << j
         found |= int(cc <= touching) << (j + LANES)
