@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-WORK_FLOATS, WORK_INTEGERS = 392, 216
+WORK_FLOATS, WORK_INTEGERS = 632, 216
 """Size of the kernels' memory: W_SIZE and K_SIZE of ``physics.kernels.layout``, which a test compares."""
 
 _LOADING = threading.Lock()

@@ -17,7 +17,8 @@ END = 160  # s: time of the ball's own next motion transition
 NEXT = 176  # s: time of the ball's next event
 CHANGE = 160  # the changes of a round of the contact rule lie this far behind VX ... WZ
 CLOSING = 272  # m/s, one per touching pair: approach, then the normal change of velocity; 0 if it does not act
-W_SIZE = CLOSING + 120
+NORMAL_X, NORMAL_Y = CLOSING + 120, CLOSING + 240  # one per touching pair: unit vector from the lower ball
+W_SIZE = NORMAL_Y + 120
 
 # --- int64, one row of lanes each --------------------------------------------------------------------
 MOTION = 0  # motion state, see below

@@ -17,6 +17,8 @@ from physics.kernels.layout import (
     LINKS,
     MOTION,
     N_PAIRS,
+    NORMAL_X,
+    NORMAL_Y,
     P_E_BALL,
     P_HISTORICAL,
     PAIRS,
@@ -27,7 +29,7 @@ from physics.kernels.layout import (
     WY,
     WZ,
 )
-from physics.kernels.resolve.ball_ball import add, approach, collide, collide_historically, normal, part, rub
+from physics.kernels.resolve.ball_ball import add, approach, collide, collide_historically, part, rub
 from physics.kernels.tolerances import SLOW_APPROACH
 
 
@@ -40,7 +42,7 @@ def select_pairs(w, k):
     for n in range(load_integer(k, N_PAIRS)):
         pair = load_integer(k, PAIRS + n)
         i, j = pair >> 4, pair & 15
-        nx, ny, _ = normal(w, i, j)
+        nx, ny = load(w, NORMAL_X + n), load(w, NORMAL_Y + n)
         closing = approach(w, i, j, nx, ny)
         if closing > SLOW_APPROACH:
             store(w, CLOSING + n, closing)
@@ -98,7 +100,7 @@ def push_group(p, w, k, group):
         pair = load_integer(k, PAIRS + n)
         i, j = pair >> 4, pair & 15
         if closing > 0.0 and group >> i & 1:
-            nx, ny, _ = normal(w, i, j)
+            nx, ny = load(w, NORMAL_X + n), load(w, NORMAL_Y + n)
             part(w, i, j, nx, ny, 0.5 * closing, CHANGE)
     work = 0.0
     size = 0.0
@@ -124,7 +126,7 @@ def rub_linked(p, w, k, members):
         share = max(load_integer(k, LINKS + i), load_integer(k, LINKS + j))
         change = load(w, CLOSING + n)
         if change > 0.0 and share > 1:
-            nx, ny, _ = normal(w, i, j)
+            nx, ny = load(w, NORMAL_X + n), load(w, NORMAL_Y + n)
             rub(p, w, i, j, nx, ny, change, float(share), CHANGE)
     apply_changes(w, members, 1.0)
 
@@ -153,7 +155,7 @@ def push_pairs(p, w, k, members):
         closing = load(w, CLOSING + n)
         if closing > 0.0 and done >> i & 1 == 0:
             if load_integer(k, LINKS + i) == 1 and load_integer(k, LINKS + j) == 1:
-                nx, ny, _ = normal(w, i, j)
+                nx, ny = load(w, NORMAL_X + n), load(w, NORMAL_Y + n)
                 push_alone(p, w, k, i, j, nx, ny, closing)
                 done |= 1 << i | 1 << j
             else:
@@ -174,7 +176,7 @@ def settle_slow_pairs(w, k, members):
     for n in range(load_integer(k, N_PAIRS)):
         pair = load_integer(k, PAIRS + n)
         i, j = pair >> 4, pair & 15
-        nx, ny, _ = normal(w, i, j)
+        nx, ny = load(w, NORMAL_X + n), load(w, NORMAL_Y + n)
         closing = approach(w, i, j, nx, ny)
         if closing > 0.0:
             part(w, i, j, nx, ny, 0.5 * closing, CHANGE)

@@ -8,6 +8,8 @@ from physics.kernels.layout import (
     HX,
     HY,
     N_PAIRS,
+    NORMAL_X,
+    NORMAL_Y,
     P_RADIUS,
     P_REST_TIME,
     PAIRS,
@@ -17,7 +19,7 @@ from physics.kernels.layout import (
     WY,
     WZ,
 )
-from physics.kernels.resolve.ball_ball import approach, normal, part
+from physics.kernels.resolve.ball_ball import approach, part
 from physics.kernels.resolve.impulses import apply_changes, clear_changes
 from physics.kernels.resolve.touching import towards_cushion
 from physics.kernels.tolerances import PRESSING, SLOW_APPROACH
@@ -54,7 +56,7 @@ def part_pressed_pairs(p, w, k, members):
     for n in range(load_integer(k, N_PAIRS)):
         pair = load_integer(k, PAIRS + n)
         i, j = pair >> 4, pair & 15
-        nx, ny, _ = normal(w, i, j)
+        nx, ny = load(w, NORMAL_X + n), load(w, NORMAL_Y + n)
         press = pressing(p, w, i, j, nx, ny)
         opening = -approach(w, i, j, nx, ny)
         wanted = max(0.5 * press * rest_time, 2.0 * SLOW_APPROACH)

@@ -1,13 +1,15 @@
 """What touches what at an instant: the geometry the contact rule works on."""
 
 from physics.kernels.advance import advance, along
-from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store_integer
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store, store_integer
 from physics.kernels.layout import (
     HX,
     HY,
     LANES,
     MOTION,
     N_PAIRS,
+    NORMAL_X,
+    NORMAL_Y,
     P_LINE_X,
     P_LINE_Y,
     P_RADIUS,
@@ -21,6 +23,7 @@ from physics.kernels.layout import (
     Y,
 )
 from physics.kernels.recording import CUE_BALL, note_crossing
+from physics.kernels.resolve.ball_ball import normal
 from physics.kernels.resolve.cushion import EAST, NORTH, SOUTH, WEST
 from physics.kernels.tolerances import TOUCH
 
@@ -96,7 +99,7 @@ def gather(p, w, k, facts, seeds, time):
 
 @kernel
 def list_pairs(p, w, k, members, time):
-    """List the touching pairs among ``members``."""
+    """List the touching pairs among ``members`` with their normals: where balls are does not change at an instant."""
     count = 0
     rest = members
     while rest != 0:
@@ -106,6 +109,9 @@ def list_pairs(p, w, k, members, time):
         for j in range(i + 1, LANES):
             if found >> j & 1:
                 store_integer(k, PAIRS + count, i * LANES + j)
+                nx, ny, _ = normal(w, i, j)
+                store(w, NORMAL_X + count, nx)
+                store(w, NORMAL_Y + count, ny)
                 count += 1
     store_integer(k, N_PAIRS, count)
 
