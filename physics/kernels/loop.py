@@ -90,7 +90,7 @@ def pocket(p, w, k, facts, trace, i, time):
     put_away(w, k, i, POCKETED)
 
 
-@kernel
+@small_kernel
 def end_motion(p, w, k, facts, facts_float, trace, alive, i, time):
     """Ball ``i`` ends its motion state; bit set of the balls still to predict, or FAILED.
 

@@ -56,7 +56,7 @@ NOBODY = -1
 """In place of a ball's number."""
 
 
-@kernel
+@small_kernel
 def restate(p, w, k, changed):
     """Give each ball whose velocity changed the motion state its velocity and spin call for.
 
@@ -206,7 +206,7 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
     return members
 
 
-@kernel
+@small_kernel
 def meet_cushion_alone(p, w, k, facts, trace, i, cushion, time):
     """A ball that touches nothing but a cushion; whether that settles it."""
     if towards_cushion(w, cushion, VX, VY, i) <= SOFT_CUSHION:
@@ -216,7 +216,7 @@ def meet_cushion_alone(p, w, k, facts, trace, i, cushion, time):
     return not returns_at_once(p, w, i, cushion)
 
 
-@kernel
+@small_kernel
 def meet_ball_alone(p, w, k, facts, facts_float, trace, i, j, time):
     """Two balls that touch nothing but each other; whether that settles them."""
     nx, ny, _ = normal(w, i, j)
