@@ -2,7 +2,7 @@
 
 import math
 
-from physics.kernels.compiling import kernel, load, load_integer, plain, small_kernel, store, store_integer
+from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store, store_integer
 from physics.kernels.layout import (
     END,
     HX,
@@ -54,7 +54,7 @@ def classify(p, vx, vy, wx, wy, wz):
     return STATIONARY
 
 
-@kernel
+@small_kernel
 def begin(p, w, k, i, motion):
     """Put ball ``i``, anchored where it is, into ``motion``: its acceleration and the time the state ends."""
     store_integer(k, MOTION + i, motion)
@@ -96,22 +96,15 @@ def begin(p, w, k, i, motion):
 def transition(p, w, k, i):
     """End the motion state of ball ``i``, already advanced to the end of it; the kind of event it is."""
     motion = load_integer(k, MOTION + i)
-    wz = load(w, WZ + i)
-    if motion == SLIDING:
-        vx = load(w, VX + i)
-        vy = load(w, VY + i)
-        limit = load(p, P_NO_SLIP)
-        if vx * vx + vy * vy > limit * limit:
-            begin(p, w, k, i, plain(ROLLING))
-            return SLIDING_ROLLING
-        if wz != 0.0:
-            begin(p, w, k, i, plain(SPINNING))
-            return SLIDING_SPINNING
-        begin(p, w, k, i, plain(STATIONARY))
-        return SLIDING_STATIONARY
-    if motion == ROLLING and wz != 0.0:
-        begin(p, w, k, i, plain(SPINNING))
-        return ROLLING_SPINNING
-    store(w, WZ + i, 0.0)
-    begin(p, w, k, i, plain(STATIONARY))
-    return ROLLING_STATIONARY if motion == ROLLING else SPINNING_STATIONARY
+    spins = load(w, WZ + i) != 0.0
+    vx, vy, limit = load(w, VX + i), load(w, VY + i), load(p, P_NO_SLIP)
+    if motion == SLIDING and vx * vx + vy * vy > limit * limit:
+        after, event = ROLLING, SLIDING_ROLLING
+    elif motion != SPINNING and spins:
+        after, event = SPINNING, SLIDING_SPINNING if motion == SLIDING else ROLLING_SPINNING
+    else:
+        store(w, WZ + i, 0.0)
+        event = SLIDING_STATIONARY if motion == SLIDING else SPINNING_STATIONARY
+        after, event = STATIONARY, ROLLING_STATIONARY if motion == ROLLING else event
+    begin(p, w, k, i, after)
+    return event
