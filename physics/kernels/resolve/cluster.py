@@ -163,10 +163,10 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
     members = gather(p, w, k, facts, 1 << i, time)
     quiet = 0  # balls changed since their last event
     allowed = -1.0  # energy before anything was held or parted
-    evened = False
+    resting = False  # step 3 has begun
     settled = False
     for _ in range(ROUND_LIMIT):
-        pushed = push_pairs(p, w, k, members)
+        pushed = 0 if resting else push_pairs(p, w, k, members)
         if pushed != 0:
             restate(p, w, k, pushed)
             quiet &= ~report_collisions(p, w, k, facts, facts_float, trace, time)
@@ -180,14 +180,14 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
             allowed = before
         if rebounding | held:
             continue
-        if not evened:
-            evened = True
+        if not resting:
+            resting = True
             changed = settle_slow_pairs(w, k, members)
             restate(p, w, k, changed)
             quiet |= changed
         if allowed < 0.0:
             allowed = energy(p, w, members)
-        changed = part_pressed_pairs(p, w, k, members) | hold_at_cushions(p, w, k, members, plain(1))
+        changed = part_pressed_pairs(p, w, k) | hold_at_cushions(p, w, k, members, plain(1))
         restate(p, w, k, changed)
         quiet |= changed
         if changed == 0 or STOP_BELOW * energy(p, w, members) > allowed:

@@ -88,13 +88,15 @@ def apply_changes(w, members, scale):
 
 
 @kernel
-def push_group(p, w, k, group):
+def push_group(w, k, group, bounce):
     """Normal impulses of a group of linked pairs; each pair's closing speed becomes its normal change of velocity.
 
-    D is the sum of the pairs' plastic changes of velocity; lambda = -(v.D)/(D.D) makes their common action keep
-    the energy, and (1 + e) lambda D is the change.
+    D is the sum of the changes of velocity that would take each pair's closing speed c alone; with
+    lambda = (sum of c^2 / 2) / (D.D) 2 lambda D keeps the energy. ``bounce`` lambda D is the change;
+    ``bounce``: 1 + e.
     """
     clear_changes(w)
+    work = 0.0
     for n in range(load_integer(k, N_PAIRS)):
         closing = load(w, CLOSING + n)
         pair = load_integer(k, PAIRS + n)
@@ -102,13 +104,12 @@ def push_group(p, w, k, group):
         if closing > 0.0 and group >> i & 1:
             nx, ny = load(w, NORMAL_X + n), load(w, NORMAL_Y + n)
             part(w, i, j, nx, ny, 0.5 * closing, CHANGE)
-    work = 0.0
+            work += 0.5 * closing * closing
     size = 0.0
     for i in range(LANES):
         dx, dy = load(w, CHANGE + VX + i), load(w, CHANGE + VY + i)
-        work += load(w, VX + i) * dx + load(w, VY + i) * dy
         size += dx * dx + dy * dy
-    scale = -(1.0 + load(p, P_E_BALL)) * work / size
+    scale = bounce * work / size
     apply_changes(w, group, scale)
     for n in range(load_integer(k, N_PAIRS)):
         i = load_integer(k, PAIRS + n) >> 4
@@ -160,7 +161,7 @@ def push_pairs(p, w, k, members):
                 done |= 1 << i | 1 << j
             else:
                 group = linked_to(w, k, pair)
-                push_group(p, w, k, group)
+                push_group(w, k, group, 1.0 + load(p, P_E_BALL))
                 done |= group
                 joint = True
     if joint:

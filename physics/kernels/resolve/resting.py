@@ -4,7 +4,7 @@ import math
 
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store
 from physics.kernels.layout import (
-    CHANGE,
+    CLOSING,
     HX,
     HY,
     N_PAIRS,
@@ -19,8 +19,8 @@ from physics.kernels.layout import (
     WY,
     WZ,
 )
-from physics.kernels.resolve.ball_ball import approach, part
-from physics.kernels.resolve.impulses import apply_changes, clear_changes
+from physics.kernels.resolve.ball_ball import approach
+from physics.kernels.resolve.impulses import linked_to, push_group
 from physics.kernels.resolve.touching import towards_cushion
 from physics.kernels.tolerances import PRESSING, SLOW_APPROACH
 
@@ -48,25 +48,35 @@ def pressing(p, w, i, j, nx, ny):
     return -(nx * ax + ny * ay) - vt * vt / (2.0 * load(p, P_RADIUS))
 
 
+@small_kernel
+def missing_speed(p, w, i, j, nx, ny):
+    """By how much a touching pair should open faster, m/s: so as not to meet again within the rest time, nor now."""
+    half = 0.5 * pressing(p, w, i, j, nx, ny) * load(p, P_REST_TIME)
+    opening = -approach(w, i, j, nx, ny)
+    wanted = max(half, 2.0 * SLOW_APPROACH)
+    if half > 0.5 * PRESSING * load(p, P_REST_TIME) and opening < half and opening < wanted - PARTING_SLACK:
+        return wanted - opening
+    return -opening if -opening > SLOW_APPROACH else 0.0
+
+
 @kernel
-def part_pressed_pairs(p, w, k, members):
-    """Part every touching pair that would meet again within the rest time, all at once; bit set of those changed."""
-    changed = 0
-    rest_time = load(p, P_REST_TIME)
+def part_pressed_pairs(p, w, k):
+    """Part every touching pair that would meet again within the rest time, all at once; bit set of those changed.
+
+    What one pair's parting presses on acts with them in the next round, plastically: the closing speed of such a pair
+    is missing as well.
+    """
     for n in range(load_integer(k, N_PAIRS)):
         pair = load_integer(k, PAIRS + n)
-        i, j = pair >> 4, pair & 15
         nx, ny = load(w, NORMAL_X + n), load(w, NORMAL_Y + n)
-        press = pressing(p, w, i, j, nx, ny)
-        opening = -approach(w, i, j, nx, ny)
-        wanted = max(0.5 * press * rest_time, 2.0 * SLOW_APPROACH)
-        if press > PRESSING and opening < 0.5 * press * rest_time and opening < wanted - PARTING_SLACK:
-            if changed == 0:
-                clear_changes(w)
-            part(w, i, j, nx, ny, 0.5 * (wanted - opening), CHANGE)
-            changed |= 1 << i | 1 << j
-    if changed != 0:
-        apply_changes(w, members, 1.0)
+        store(w, CLOSING + n, missing_speed(p, w, pair >> 4, pair & 15, nx, ny))
+    changed = 0
+    for n in range(load_integer(k, N_PAIRS)):
+        pair = load_integer(k, PAIRS + n)
+        if load(w, CLOSING + n) > 0.0 and changed >> (pair >> 4) & 1 == 0:
+            group = linked_to(w, k, pair)
+            push_group(w, k, group, 1.0)
+            changed |= group
     return changed
 
 

@@ -70,17 +70,16 @@ def linked(pairs: Sequence[Pair]) -> list[list[Pair]]:
     return groups
 
 
-def normal_round(world: World, group: Sequence[Pair]) -> list[mpf]:
-    """lambda (1 + e) D, with D the sum of the plastic changes; returns the normal impulse of each pair per mass."""
+def normal_round(group: Sequence[Pair], gains: Sequence[mpf], bounce: mpf) -> list[mpf]:
+    """lambda (1 + e) D, with D the sum of what gives each pair alone its gain of speed; the impulses per mass."""
     change: dict[int, mpc] = {}
     balls = {ball.number: ball for pair in group for ball in pair}
-    plastic = [approach(pair) / 2 for pair in group]
+    plastic = [gain / 2 for gain in gains]
     for (one, two), half in zip(group, plastic, strict=True):
         n = normal(one, two)
         change[one.number] = change.get(one.number, mpc(0)) - half * n
         change[two.number] = change.get(two.number, mpc(0)) + half * n
-    work = sum(dot(balls[i].velocity, d) for i, d in change.items())
-    scale = -work / sum(dot(d, d) for d in change.values()) * (1 + world.e_ball)
+    scale = sum(gain**2 / 2 for gain in gains) / sum(dot(d, d) for d in change.values()) * bounce
     for i, d in change.items():
         balls[i].velocity += scale * d
     return [scale * half for half in plastic]
@@ -90,7 +89,8 @@ def ball_round(cluster: Cluster, acting: Sequence[Pair]) -> None:
     """Step 1: normal impulses of all approaching pairs, then their friction, all at once."""
     world, struck = cluster.world, []
     for group in linked(acting):
-        struck += list(zip(group, normal_round(world, group), strict=True))
+        impulses = normal_round(group, [approach(pair) for pair in group], 1 + world.e_ball)
+        struck += list(zip(group, impulses, strict=True))
     share = {ball.number: sum(ball in pair for pair in acting) for pair in acting for ball in pair}
     frictions = [
         tangential_impulse(world, one, two, normal(one, two), j, max(share[one.number], share[two.number]))
@@ -114,10 +114,11 @@ def wall_round(cluster: Cluster, acting: Sequence[tuple[Ball, Line]]) -> None:
         cluster.note("settling", ball.number, line.cushion)
 
 
-def collide(cluster: Cluster) -> None:
-    """Steps 1 and 2 until nothing approaches faster than v_creep."""
+def collide(cluster: Cluster, cushions_only: bool = False) -> None:
+    """Steps 1 and 2 until nothing approaches faster than v_creep; in step 3 the cushions alone."""
     while True:
-        acting = [pair for pair in cluster.pairs if approach(pair) > cluster.world.v_creep]
+        pairs = [] if cushions_only else cluster.pairs
+        acting = [pair for pair in pairs if approach(pair) > cluster.world.v_creep]
         hits = [(b, line) for b, line in cluster.walls if -dot(b.velocity, line.inward) > cluster.world.v_creep]
         if acting:
             ball_round(cluster, acting)
@@ -168,22 +169,26 @@ def part_pressed(cluster: Cluster) -> bool:
     """Step 3: settle balls pressed to a cushion, part pairs that would meet again within tau; was there any?"""
     world = cluster.world
     pressed = [(ball, line) for ball, line in cluster.walls if returning_to_wall(world, ball, line)]
-    parted = []
-    for pair in cluster.pairs:
-        closing, opening = closing_acceleration(world, pair), -approach(pair)
-        wanted = max(closing * world.rest_time / 2, 2 * world.v_creep)
-        meets_again = closing > MIN_CLOSING and opening < closing * world.rest_time / 2
-        if meets_again and opening < wanted - PARTING_SLACK:
-            parted.append((pair, wanted - opening))
+    missing = [(pair, missing_speed(world, pair)) for pair in cluster.pairs]
+    parted = [(pair, gain) for pair, gain in missing if gain > 0]
     for ball, line in pressed:
         settle(ball, line)
         cluster.note("settling", ball.number, line.cushion)
-    for (one, two), gain in parted:
-        n = normal(one, two)
-        one.velocity -= gain / 2 * n
-        two.velocity += gain / 2 * n
-        cluster.note("contact", one.number, two.number)
+    for group in linked([pair for pair, _ in parted]):
+        normal_round(group, [next(gain for other, gain in parted if other is pair) for pair in group], mpf(1))
+        for one, two in group:
+            cluster.note("contact", one.number, two.number)
     return bool(pressed or parted)
+
+
+def missing_speed(world: World, pair: Pair) -> mpf:
+    """By how much a pair should open faster so as not to meet again within tau, nor now."""
+    closing, opening = closing_acceleration(world, pair), -approach(pair)
+    wanted = max(closing * world.rest_time / 2, 2 * world.v_creep)
+    meets_again = closing > MIN_CLOSING and opening < closing * world.rest_time / 2
+    if meets_again and opening < wanted - PARTING_SLACK:
+        return wanted - opening
+    return -opening if -opening > world.v_creep else mpf(0)
 
 
 def total_energy(cluster: Cluster) -> mpf:
@@ -200,7 +205,7 @@ def resolve(cluster: Cluster) -> None:
         reclassify(cluster)
         if total_energy(cluster) > 2 * cluster.allowed:
             break
-        collide(cluster)
+        collide(cluster, cushions_only=True)
     limit_energy(cluster)
 
 
