@@ -14,6 +14,7 @@ BENCHMARKS = {
     "agents": "the shipped greedy against random: games won, called balls made, seconds a stroke",
     "search": "the shipped search in pairs of games against greedy and against itself without its parts",
     "search_habits": "what typically happens in games of search: the constants behind its values",
+    "saturation": "times of strokes while one client keeps the batch endpoint busy, and while none does",
     "search_breaks": "the study behind the break of `search`: random breaks, halved again and again",
 }
 """Module in this package to one line about it."""

@@ -9,6 +9,7 @@ import os
 import signal
 import socket
 import sys
+import tempfile
 import threading
 import time
 from multiprocessing.connection import wait
@@ -16,6 +17,7 @@ from multiprocessing.context import SpawnProcess
 from types import FrameType
 
 from server.errors import SettingsError
+from server.ops.metrics import SHARED_FOLDER
 from server.serve import announce, listening, serve_on
 from server.settings import Settings
 from server.store import postgresql
@@ -32,7 +34,8 @@ def serve_by_many(settings: Settings, host: str, port: int, count: int) -> None:
     """Serve with `count` processes until a signal; raises `SettingsError` unless the database is PostgreSQL."""
     if not postgresql.is_ours(settings.database):
         raise SettingsError(f"processes is {count}; allowed: 1 with SQLite, more with a postgresql:// database")
-    with listening(host, port) as server_socket:
+    with listening(host, port) as server_socket, tempfile.TemporaryDirectory(prefix="pooliad-metrics-") as folder:
+        os.environ.setdefault(SHARED_FOLDER, folder)
         _Supervisor(server_socket, settings).run(count)
 
 

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 import uvicorn
 
 from server.app import create_app
+from server.ops import logs
 from server.security.slow_headers import http_protocol
 from server.services.context import Context
 from server.settings import Settings
@@ -68,6 +69,7 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
 
     Raises `SettingsError` when the database is not to be had.
     """
+    logs.configure(settings.log_level)
     app = create_app(settings)
     context: Context = app.state.context
     context.database.membership.enter()
@@ -82,6 +84,7 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
         ws="none",
         lifespan="on",
         access_log=False,
+        log_config=None,
         server_header=False,
         log_level="warning",
         timeout_graceful_shutdown=max(1, round(settings.drain_seconds)),

@@ -19,6 +19,7 @@ SECRET = "organiser_token"
 SHORTEST_ORGANISER_TOKEN = 32
 """Characters. 32 hexadecimal digits are 128 bits, the least that no one guesses."""
 FLAGS = {"true": True, "1": True, "yes": True, "false": False, "0": False, "no": False}
+LOG_LEVELS = ("debug", "info", "warning", "error")
 REGISTRATIONS = ("open", "invited", "closed")
 
 
@@ -67,6 +68,7 @@ class Settings:
     address_rate: float = setting(200.0, "requests a second of one address without a valid token")
     address_burst: float = setting(1000.0, "such requests at once")
     physics_threads: int = setting(2, "threads for simulations that clients ask for")
+    log_level: str = setting("info", "the least that is logged: `debug`, `info`, `warning`, `error`", one_of=LOG_LEVELS)
     drain_seconds: float = setting(5.0, "the server stops at the latest so long after SIGTERM")
     house_bots: str = setting("", "agents that the server runs itself: `NAME` or `NAME=AGENT`, apart by `;`")
     house_places: int = setting(4, "matches that each of them plays at a time")

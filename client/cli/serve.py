@@ -8,7 +8,7 @@ import typer
 
 from client.cli.output import fail
 
-NEEDED = ("fastapi", "uvicorn", "sqlalchemy", "alembic", "psycopg")
+NEEDED = ("fastapi", "uvicorn", "prometheus_client", "sqlalchemy", "alembic", "psycopg")
 """What the `server` extra brings."""
 
 

@@ -1,11 +1,13 @@
 """For whoever runs the server: is the process alive, can it do its work."""
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Response
+from prometheus_client import CONTENT_TYPE_PLAIN_0_0_4
 
+from referee.record import this_engine
 from server.errors import Draining
 from server.routes.dependencies import Server
 from server.routes.describe import describe
-from server.store.upgrade import is_current
+from server.store.upgrade import head, is_current
 
 router = APIRouter(tags=["operations"])
 
@@ -20,7 +22,7 @@ def healthz() -> dict[str, str]:
 @router.head("/readyz", include_in_schema=False)
 @router.get("/readyz", **describe(Draining, token=False, limited=False), summary="The server can take games")
 def readyz(context: Server) -> dict[str, str]:
-    """The kernels are loaded, the database has this version's tables, and the server is not shutting down."""
+    """The kernels are loaded and pass their self-test, the database has this version's tables, nobody shuts it down."""
     if context.wakeups.draining.is_set():
         raise Draining("the server is shutting down")
     if context.warm_up_failed.is_set():
@@ -29,4 +31,21 @@ def readyz(context: Server) -> dict[str, str]:
         raise Draining("the physics kernels are being loaded")
     if not is_current(context.database):
         raise Draining("the database has the tables of another version")
-    return {"status": "ready"}
+    (tested,) = context.self_test
+    return {
+        "status": "ready",
+        "engine": this_engine().digest,
+        "self_test": tested.digest,
+        "database": "postgresql" if context.database.is_shared else "sqlite",
+        "schema": str(head()),
+    }
+
+
+@router.get(
+    "/metrics",
+    **describe(success={200: "text/plain"}, token=False, limited=False),
+    summary="What the server counts and measures, for Prometheus",
+)
+def metrics(context: Server) -> Response:
+    """In Prometheus' text format."""
+    return Response(context.metrics.text(context.database), media_type=CONTENT_TYPE_PLAIN_0_0_4)

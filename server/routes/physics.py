@@ -41,6 +41,7 @@ async def simulate(context: Server, caller: Simulating, body: Body, content_type
     def work() -> SimulateAnswer:
         request = parse_body(body, content_type, SimulateRequest)
         simulations.count(context, caller, request.game, 1)
+        context.metrics.simulated.inc()
         return physics.simulate(request)
 
     return await _answered(context, work)
@@ -60,6 +61,7 @@ def _batch(context: Context, caller: Caller, body: bytes, content_type: str | No
     request = parse_body(body, content_type, BatchRequest)
     context.limits.count_shots(caller, len(request.shots))
     simulations.count(context, caller, request.game, len(request.shots))
+    context.metrics.simulated.inc(len(request.shots))
     return physics.simulate_batch(request)
 
 

@@ -8,9 +8,11 @@ from dataclasses import dataclass, field
 
 from sqlalchemy import Connection
 
+from physics.self_test import SelfTest
 from referee.play import nanoseconds
 from server import failpoints
 from server.failpoints import Failpoint
+from server.ops.metrics import Metrics
 from server.services.limits import Limits
 from server.services.physics_pool import PhysicsPool
 from server.services.presence import Presence
@@ -26,6 +28,7 @@ class Context:
 
     Attributes:
         warm: set when the kernels are loaded; warm_up_failed: set when they could not be.
+        self_test: what the physics' self-test came to, once it has passed.
         in_hand: for each game the arrival times of the requests that are being worked on.
         failpoint: told every step at which tests have the process killed.
         match_over: called when a match has ended, with its id, in the transaction that ended it.
@@ -38,6 +41,8 @@ class Context:
     presence: Presence = field(default_factory=Presence)
     warm: threading.Event = field(default_factory=threading.Event)
     warm_up_failed: threading.Event = field(default_factory=threading.Event)
+    self_test: list[SelfTest] = field(default_factory=list)
+    metrics: Metrics = field(default_factory=Metrics)
     limits: Limits = field(init=False)
     physics: PhysicsPool = field(init=False)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))

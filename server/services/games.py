@@ -3,6 +3,7 @@
 Everything here runs in the transaction of whatever caused it.
 """
 
+import logging
 import secrets
 from dataclasses import dataclass, replace
 from typing import Any, Final
@@ -18,6 +19,8 @@ from server.services import draws, notices, turn_clock
 from server.services.context import Writing
 from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of, stored
 from server.store.tables import charges, games, matches, moves
+
+log = logging.getLogger("pooliad.server.games")
 
 FIRST_VERSION = 1
 
@@ -127,6 +130,8 @@ def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
     live = _store(writing, live, game, end, values)
     live = replace(live, score=score_of(writing.connection, live.match.id))
     notices.game_over(writing.connection, live, writing.now)
+    writing.context.metrics.games_ended.labels(outcome.reason.value).inc()
+    log.info("game over", extra={"fields": {"game": live.id} | outcome.to_dict()})
     if not aborted:
         _go_on(writing, live)
     return live

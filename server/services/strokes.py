@@ -4,6 +4,7 @@ The shot is simulated between two transactions; the second stores all of it or n
 game's seed and the stroke's index alone, so that a shot simulated twice is the same shot.
 """
 
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ from sqlalchemy import Connection, insert, select
 from physics import PhysicsError
 from referee import Action, Decision, Refusal
 from referee.play import Refused, Stroke, play_stroke
+from referee.play.clock import SECOND_NS
 from referee.record import Chain, stroke_entry
 from referee.wire import DecisionRequest, Fault, ShotRequest, StrokeAnswer, StrokeDetail, shown
 from server import errors
@@ -22,6 +24,8 @@ from server.services.context import Context, Writing
 from server.services.live import LiveGame, find, hold_seen
 from server.store.tables import games as game_rows
 from server.store.tables import moves
+
+log = logging.getLogger("pooliad.server.strokes")
 
 
 def shoot(context: Context, game_id: str, command: Command) -> Answer:
@@ -73,9 +77,18 @@ def _act(context: Context, game_id: str, command: Command, read: Callable[[], _A
         keep(writing.connection, command, answer)
         context.failpoint("shot-kept")
     context.failpoint("shot-committed")
+    _account(context, live, command, end, stroke)
     context.wakeups.notify(live.agents)
     context.failpoint("shot-woken")
     return answer
+
+
+def _account(context: Context, live: LiveGame, command: Command, end: games.TurnEnd, stroke: Stroke) -> None:
+    """Count and log a stroke that was stored; its id is the game's with the number of the move."""
+    context.metrics.strokes.inc()
+    context.metrics.stroke_seconds.observe(max(0, context.time.now() - command.arrived) / SECOND_NS)
+    fields = {"game": live.id, "shot": f"{live.id}/{end.move}", "seat": stroke.seat, "rules": stroke.ruling.rules}
+    log.info("stroke", extra={"fields": fields})
 
 
 def _limit_others(context: Context, connection: Connection, game_id: str, caller: Caller) -> None:

@@ -3,16 +3,14 @@
 import logging
 import threading
 
-import physics
+from physics.self_test import SelfTest, self_test
 from server.services.context import Context
 
 log = logging.getLogger("pooliad.server.warmup")
 
-SHOT = physics.Shot(v=1.0, phi=270.0, theta=10.0)
-
 
 def start(context: Context) -> None:
-    """Play one shot in the background; `context.warm` is set when the kernels are loaded.
+    """Run the physics' self-test in the background; `context.warm` is set when it passed and the kernels are loaded.
 
     `context.warm_up_failed` is set, and the log has the reason, when they cannot be.
 
@@ -23,18 +21,18 @@ def start(context: Context) -> None:
 
 def _load(context: Context) -> None:
     try:
-        _play()
+        result = _tested()
     except Exception:
         log.exception("the physics kernels could not be loaded")
         context.warm_up_failed.set()
     else:
-        log.info("kernels loaded")
+        log.info("kernels loaded", extra={"fields": {"self_test": result.digest}})
+        context.self_test.append(result)
         context.warm.set()
 
 
-def _play() -> None:
-    table = physics.Table.olympiad()
-    state = physics.rack(table, "eight_ball", seed=0)
-    physics.check(table, state, SHOT)
-    physics.min_elevation(table, state, SHOT.phi)
-    physics.simulate(table, state, SHOT)
+def _tested() -> SelfTest:
+    result = self_test()
+    if not result.ok:
+        raise RuntimeError(f"the physics gives two answers to the same shot: {result}")
+    return result

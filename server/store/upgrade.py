@@ -26,7 +26,12 @@ def is_current(database: Database) -> bool:
     """Whether the database has exactly this version's schema."""
     with database.reading() as connection:
         stored = MigrationContext.configure(connection).get_current_revision()
-    return stored == ScriptDirectory.from_config(_config()).get_current_head()
+    return stored == head()
+
+
+def head() -> str | None:
+    """The revision of this version's schema."""
+    return ScriptDirectory.from_config(_config()).get_current_head()
 
 
 def _config() -> Config:

@@ -19,6 +19,7 @@ LET_IN = {
     "HEAD /openapi.json": PUBLIC,
     "GET /healthz": PUBLIC,
     "HEAD /healthz": PUBLIC,
+    "GET /metrics": PUBLIC,
     "GET /readyz": PUBLIC,
     "HEAD /readyz": PUBLIC,
     "GET /": PUBLIC,
@@ -66,7 +67,7 @@ LET_IN = {
 }
 """Route to the roles that are let in; the match is running, the agent of the address is its mover."""
 
-UNPROTECTED = ("/openapi.json", "/healthz", "/readyz", "/", "/web/{name}")
+UNPROTECTED = ("/openapi.json", "/healthz", "/readyz", "/metrics", "/", "/web/{name}")
 """Routes that do not look at a token at all."""
 
 
