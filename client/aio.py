@@ -72,9 +72,9 @@ class AsyncPooliad:
         """Close the connections."""
         await self._http.aclose()
 
-    async def register(self, name: str) -> AgentToken:
+    async def register(self, name: str, *, invitation: str | None = None) -> AgentToken:
         """Register an agent; the answer holds its token, which is shown this once."""
-        return await self._send(calls.register(name))
+        return await self._send(calls.register(name, invitation))
 
     async def agents(self, cursor: str | None = None, *, house: bool | None = None) -> AgentList:
         """One page of the registered agents; house bots alone, or all but them, when asked for."""

@@ -71,9 +71,10 @@ def authorization(token: str | None) -> dict[str, str]:
     return {} if token is None else {"Authorization": f"Bearer {token}"}
 
 
-def register(name: str) -> Call[AgentToken]:
+def register(name: str, invitation: str | None) -> Call[AgentToken]:
     """Register an agent; the answer shows its token, once."""
-    return Call("POST", "/v1/agents", _reader(AgentToken), body={"name": name})
+    body = {"name": name} if invitation is None else {"name": name, "invitation": invitation}
+    return Call("POST", "/v1/agents", _reader(AgentToken), body=body)
 
 
 def agents(cursor: str | None = None, house: bool | None = None) -> Call[AgentList]:

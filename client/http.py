@@ -75,9 +75,9 @@ class Pooliad:
         """Close the connections."""
         self._http.close()
 
-    def register(self, name: str) -> AgentToken:
+    def register(self, name: str, *, invitation: str | None = None) -> AgentToken:
         """Register an agent; the answer holds its token, which is shown this once."""
-        return self._send(calls.register(name))
+        return self._send(calls.register(name, invitation))
 
     def agents(self, cursor: str | None = None, *, house: bool | None = None) -> AgentList:
         """One page of the registered agents; house bots alone, or all but them, when asked for."""

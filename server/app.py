@@ -21,6 +21,7 @@ from server.services.house_bots import House
 from server.services.matches import abort_foreign
 from server.services.relay import Relay
 from server.services.spectators import Spectators
+from server.services.time import DatabaseTime, TimeSource
 from server.services.timer import Timer
 from server.settings import Settings
 from server.store.database import Database
@@ -34,9 +35,11 @@ gets the stored answer. Errors are RFC 9457 problem details with a stable `code`
 
 def create_app(settings: Settings) -> FastAPI:
     """The server as an ASGI application; its database is opened and brought up to date when it starts."""
+    database = Database(settings.database)
     context = Context(
         settings,
-        Database(settings.database),
+        database,
+        DatabaseTime(database.clock) if database.is_shared else TimeSource(),
         failpoint=failpoints.parse(settings.failpoint),
         match_over=events.match_over,
     )

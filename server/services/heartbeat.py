@@ -46,6 +46,7 @@ class Heartbeat:
         """The first process at work on the database takes up the games; whoever else starts now waits until it has."""
         membership = self._context.database.membership
         membership.enter()
+        self._context.time.adjust()
         begin(self._context, self._process, alone=membership.is_alone)
         membership.settle()
 
@@ -53,11 +54,15 @@ class Heartbeat:
         beat(self._context, self._process, stopped=True)
         self._context.database.membership.leave()
 
+    def _beat(self) -> None:
+        self._context.time.adjust()
+        beat(self._context, self._process)
+
     async def _run(self) -> None:
         while True:
             await asyncio.sleep(self._period)
             try:
-                await run_in_threadpool(beat, self._context, self._process)
+                await run_in_threadpool(self._beat)
             except Exception:
                 log.exception("no heartbeat; the next is due in %g s", self._period)
 

@@ -48,6 +48,11 @@ class Database:
             with writing.begin():
                 yield writing
 
+    def clock(self) -> int:
+        """The time by the database's own clock, ns since 1970; for several processes that share it."""
+        with self._engine.connect() as connection:
+            return int(connection.exec_driver_sql(postgresql.CLOCK).scalar_one())
+
     def dispose(self) -> None:
         """Close every connection."""
         self._engine.dispose()

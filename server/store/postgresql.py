@@ -13,6 +13,9 @@ find none free wait for one; none ever holds two."""
 READING: Final[dict[str, Any]] = {"isolation_level": "REPEATABLE READ", "postgresql_readonly": True}
 """Options of connections whose statements all see the same moment."""
 
+CLOCK: Final = "SELECT (extract(epoch FROM clock_timestamp()) * 1000000000)::bigint"
+"""Nanoseconds since 1970, when the statement runs and not when its transaction began."""
+
 
 def is_ours(url: str) -> bool:
     """Whether the URL names a PostgreSQL database."""

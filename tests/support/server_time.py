@@ -27,6 +27,9 @@ class StoppedTime:
     def now(self) -> int:
         return self.value
 
+    def adjust(self) -> None:
+        """There is no other clock to follow."""
+
     def pass_(self, seconds: float) -> None:
         self.value += round(seconds * SECOND)
 
