@@ -144,7 +144,7 @@ class Dask:
 
     def stop(self) -> None:
         """Withdraw what is not done, and leave the cluster."""
-        self._executor.shutdown(wait=False, cancel_futures=True)
+        self._executor.shutdown(wait=False)
         self._client.close()
 
 

@@ -1,5 +1,8 @@
 """`pooliad tournament`: run events, take them up again, decide about them while they run."""
 
+import contextlib
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,12 +12,18 @@ from client.cli.output import USAGE, Json, emit, fail, say
 
 if TYPE_CHECKING:
     from client.arena.directory import EventDirectory
+    from client.arena.remote import RemoteRunner
+    from client.arena.runner import Observer, Runner
     from client.arena.terms import Terms
     from tournament.ledger import Ledger
 
 Event = Annotated[Path, typer.Argument(help="Directory of the event.")]
 Executor = Annotated[str, typer.Option(help="Where games are played: processes, inline, or dask://HOST:PORT.")]
 Workers = Annotated[int | None, typer.Option(min=1, max=4096, help="Processes; one for each core unless given.")]
+Server = Annotated[str | None, typer.Option(envvar="POOLIAD_URL", help="Address of a server that makes the matches.")]
+Token = Annotated[
+    str | None, typer.Option(envvar="POOLIAD_ORGANISER_TOKEN", help="An organiser's; better in the environment.")
+]
 Reason = Annotated[str, typer.Option(help="Why; it stays in the journal.")]
 
 
@@ -40,6 +49,8 @@ def run(
     out: Annotated[Path | None, typer.Option(help="Directory for the event; the file's name unless given.")] = None,
     executor: Executor = "processes",
     workers: Workers = None,
+    server: Server = None,
+    token: Token = None,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Only check the file and estimate the duration.")] = False,
     as_json: Json = False,
 ) -> None:
@@ -57,17 +68,24 @@ def run(
         return
     directory = EventDirectory.create(out or Path(file.stem), terms.to_dict())
     directory.journal.append("opened", file=str(file))
-    _play(directory, terms, executor, workers, as_json)
+    _play(directory, terms, _Where(executor, workers, server, token), as_json)
 
 
-def resume(directory: Event, executor: Executor = "processes", workers: Workers = None, as_json: Json = False) -> None:
+def resume(
+    directory: Event,
+    executor: Executor = "processes",
+    workers: Workers = None,
+    server: Server = None,
+    token: Token = None,
+    as_json: Json = False,
+) -> None:
     """Take up an event that was interrupted: finished games stand, unfinished ones go on from their last stroke."""
     from client.arena.terms import Terms
 
     _find_here()
     event = _opened(directory)
     event.journal.append("resumed")
-    _play(event, Terms.from_dict(event.terms()), executor, workers, as_json)
+    _play(event, Terms.from_dict(event.terms()), _Where(executor, workers, server, token), as_json)
 
 
 def status(directory: Event, as_json: Json = False) -> None:
@@ -147,21 +165,46 @@ def _who() -> str:
         return "unknown"
 
 
-def _play(event: "EventDirectory", terms: "Terms", executor: str, workers: int | None, as_json: bool) -> None:
+@dataclass(frozen=True, slots=True)
+class _Where:
+    """Where an event is played: on an executor, or at a server."""
+
+    executor: str
+    workers: int | None
+    server: str | None
+    token: str | None
+
+    @contextlib.contextmanager
+    def runner(self, event: "EventDirectory", seen: "Observer") -> Iterator["Runner | RemoteRunner"]:
+        """What runs the event there."""
+        from client.arena.executors import pool_of
+        from client.arena.remote import PLACE, RemoteRunner
+        from client.arena.runner import Runner
+
+        if self.server is not None:
+            if self.token is None:
+                fail("an event at a server takes an organiser's token: --token or POOLIAD_ORGANISER_TOKEN", USAGE)
+            yield RemoteRunner(event, self.server, self.token, seen)
+            return
+        if (event.path / PLACE).exists():
+            fail(f"{event.path} is an event at a server: give its address with --server", USAGE)
+        with pool_of(self.executor, self.workers) as pool:
+            yield Runner(event, pool, seen)
+
+
+def _play(event: "EventDirectory", terms: "Terms", where: _Where, as_json: bool) -> None:
     """Play until the event is over, paused or interrupted, and say how it stands."""
     from client.arena.estimate import games_of
-    from client.arena.executors import pool_of
-    from client.arena.runner import Runner
     from client.cli.processes import termination_as_exception
     from client.cli.progress import shown
 
     try:
         with (
             termination_as_exception(),
-            pool_of(executor, workers) as pool,
             shown(games_of(terms.spec)[1], as_json) as seen,
+            where.runner(event, seen) as it,
         ):
-            ledger = Runner(event, pool, seen).run()
+            ledger = it.run()
     except KeyboardInterrupt:
         event.journal.append("interrupted")
         fail(f"interrupted; go on with: pooliad tournament resume {event.path}", 130)

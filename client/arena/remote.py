@@ -1,0 +1,266 @@
+"""Running an event at a server: it makes the matches; here the hosted entrants play, and the records are fetched."""
+
+import contextlib
+import json
+import secrets
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from client.arena.directory import EventDirectory, EventError, write_whole
+from client.arena.hosting import Hosting, Kind
+from client.arena.process import ProcessSeat
+from client.arena.runner import Observer
+from client.arena.terms import Terms
+from client.errors import ApiError, ConnectionFailed, Forbidden, NameTaken, PooliadError
+from client.http import Pooliad
+from client.retry import Retry
+from referee import Action, SimulationBudget
+from referee.play.local import Lost
+from referee.record import read_record
+from referee.wire import EntryView, GameOver, TournamentGame, TournamentRequest, TournamentView, Turn, View
+from tournament import Due, Event
+from tournament.from_record import result_of
+from tournament.ledger import Ledger
+
+PLACE = "server.json"
+"""Which event of which server a directory is about, and the entrants' agents there."""
+LOOK_EVERY = 0.5
+POLL = 20.0
+"""Seconds a hosted entrant's long poll waits."""
+ACTS = ("void", "disqualify", "pause", "go_on", "abort")
+"""Decisions that the journal repeats."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """An event at a server.
+
+    Attributes:
+        url: of the server. tournament: its id. agents: entrant's name to agent id.
+    """
+
+    url: str
+    tournament: str
+    agents: dict[str, str]
+
+
+class RemoteRunner:
+    """One event at one server, from making it, or from wherever it stands, to its end.
+
+    Args:
+        directory: where journal and records are kept.
+        url: of the server. token: an organiser's.
+        observer: is told how it goes.
+    """
+
+    def __init__(
+        self, directory: EventDirectory, url: str, token: str, observer: Observer = lambda ledger, running: None
+    ) -> None:
+        self._directory = directory
+        self._terms = Terms.from_dict(directory.terms())
+        self._url = url
+        self._token = token
+        self._observer = observer
+        self._journal = directory.journal
+        self._ledger = Ledger(Event(self._terms.spec))
+        self._stop = threading.Event()
+
+    def run(self) -> Ledger:
+        """Play until the event is finished, paused or aborted.
+
+        Raises:
+            EventError: a remote entrant has no agent at the server; the directory is another server's.
+            client.PooliadError: what the server does not accept.
+        """
+        with self._directory.alone(), Pooliad(self._url, self._token) as server:
+            place = self._place(server)
+            self._ledger = self._ledger.after(self._journal.new())
+            if server.tournament(place.tournament).status in ("created", "paused"):
+                server.direct_tournament(place.tournament, "start")
+            with self._players(server, place):
+                self._watch(server, place)
+        return self._ledger
+
+    def _place(self, server: Pooliad) -> Place:
+        """The event at the server: the one that the directory is about, else a new one."""
+        path = self._directory.path / PLACE
+        if path.exists():
+            place = Place(**json.loads(path.read_text(encoding="utf-8")))
+            if place.url != self._url:
+                raise EventError(f"{self._directory.path} is an event at {place.url}, not at {self._url}")
+            return place
+        agents = {name: self._agent(server, name, hosting) for name, hosting in self._terms.hosting.items()}
+        made = server.create_tournament(TournamentRequest(terms=self._terms.spec.to_dict(), agents=agents))
+        place = Place(self._url, made.id, agents)
+        values = {"url": place.url, "tournament": place.tournament, "agents": place.agents}
+        write_whole(path, json.dumps(values, indent=2).encode())
+        return place
+
+    def _agent(self, server: Pooliad, name: str, hosting: Hosting) -> str:
+        """The entrant's agent: the one that plays by itself, or a new one for us to play."""
+        if hosting.kind is not Kind.REMOTE:
+            try:
+                return server.register(name).agent.id
+            except NameTaken:
+                return server.register(f"{name[:50]}-{secrets.token_hex(4)}").agent.id
+        if hosting.remote_id is not None:
+            return hosting.remote_id
+        cursor = None
+        while True:
+            page = server.agents(cursor)
+            found = [agent.id for agent in page.agents if agent.name == name]
+            if found or page.next_cursor is None:
+                break
+            cursor = page.next_cursor
+        if not found:
+            raise EventError(f"entrant {name!r} is to play by itself, but no agent of this name is at {self._url}")
+        return found[0]
+
+    @contextlib.contextmanager
+    def _players(self, server: Pooliad, place: Place) -> Iterator[None]:
+        """The hosted entrants at work, each with a token of its own, a thread and a process."""
+        threads = []
+        for name, hosting in self._terms.hosting.items():
+            if hosting.kind is not Kind.REMOTE:
+                token = server.rotate_token(place.agents[name]).token
+                player = _Player(self, name, hosting, token)
+                threads.append(threading.Thread(target=player.play, name=f"entrant {name}"))
+        for thread in threads:
+            thread.start()
+        try:
+            yield
+        finally:
+            self._stop.set()
+            for thread in threads:
+                thread.join()
+
+    def _watch(self, server: Pooliad, place: Place) -> None:
+        """Take over results and decisions until the event rests."""
+        while True:
+            view = server.tournament(place.tournament)
+            self._take(server, view)
+            running = sum(game.status == "running" for game in view.played)
+            self._observer(self._ledger, running)
+            if view.status in ("finished", "aborted") or (view.status == "paused" and running == 0):
+                return
+            self._stop.wait(LOOK_EVERY)
+
+    def _take(self, server: Pooliad, view: TournamentView) -> None:
+        """Results first: a decision may be about one of them."""
+        for game in view.played:
+            if game.match is not None and game.status in ("finished", "void", "aborted"):
+                self._keep(server, game)
+        seen = sum(entry.kind in ACTS for entry in self._directory.journal.new())
+        for entry in [entry for entry in view.log if entry.kind in ACTS][seen:]:
+            self._repeat(entry)
+        self._ledger = self._ledger.after(self._journal.new())
+
+    def _repeat(self, entry: EntryView) -> None:
+        fields = {name: value for name, value in entry.fields.items() if name not in ("kind", "at", "by")}
+        self._journal.append(entry.kind, by=entry.by, **fields)
+
+    def _keep(self, server: Pooliad, game: TournamentGame) -> None:
+        """Fetch a finished game's record, and put its result into the journal."""
+        pair = next(pair for pair in self._ledger.event.plan.pairs if pair.id == game.pair)
+        due = Due(pair, game.leg, game.attempt)
+        path = self._directory.games / f"{due.id}.jsonl"
+        if path.exists() or game.match is None:
+            return
+        (played,) = server.match(game.match).played
+        record = server.record(played.id)
+        result = result_of(read_record(record.decode().splitlines()), due)
+        write_whole(path, record)
+        self._journal.append("game", result=result.to_dict(), match=game.match)
+        self._ledger = self._ledger.after(self._journal.new())
+
+    def player_stopped(self) -> bool:
+        """Whether the entrants are to leave."""
+        return self._stop.is_set()
+
+    def incident(self, name: str, what: str) -> None:
+        """Note what went wrong with an entrant."""
+        self._journal.append("incident", entrant=name, pair="", what=what)
+
+    def seat(self, name: str, hosting: Hosting) -> ProcessSeat:
+        """The entrant's process. At a server every hosted entrant has one: their clocks run at the same time."""
+        log = self._directory.logs / f"{_slug(name)}.log"
+        return ProcessSeat(hosting, self._terms.agent_seed, log, lambda what: self.incident(name, what))
+
+    def connection(self, token: str) -> Pooliad:
+        """A connection with an entrant's token."""
+        return Pooliad(self._url, token, retry=Retry())
+
+    def lost(self, view: View, reason: str) -> None:
+        """Tell the server that a hosted entrant's process crashed, stalled or broke the terms: it loses this game."""
+        if view.seat is None or reason == "time_out":  # the server's own clock has the last word
+            return
+        with Pooliad(self._url, self._token) as server, contextlib.suppress(ApiError):
+            server.forfeit(view.game, view.seat, reason)  # type: ignore[arg-type]
+
+
+class _Player:
+    """One hosted entrant: turns from the server to its process, actions back."""
+
+    def __init__(self, runner: RemoteRunner, name: str, hosting: Hosting, token: str) -> None:
+        self._runner = runner
+        self._name = name
+        self._hosting = hosting
+        self._token = token
+        self._game = ""
+        self._budget = SimulationBudget()
+        self._declared = 0
+
+    def play(self) -> None:
+        """Play every turn until the runner stops."""
+        seat = self._runner.seat(self._name, self._hosting)
+        with contextlib.closing(seat), self._runner.connection(self._token) as server:
+            while not self._runner.player_stopped():
+                try:
+                    self._next(server, seat)
+                except (ConnectionFailed, ApiError) as error:
+                    self._runner.incident(self._name, str(error)[:500])
+                    if isinstance(error, Forbidden):
+                        return
+
+    def _next(self, server: Pooliad, seat: ProcessSeat) -> None:
+        message = server.turns(min(POLL, 2.0))
+        if isinstance(message, Turn):
+            view: View | None = message.view
+            while view is not None and view.my_turn and not self._runner.player_stopped():
+                view = self._answer(server, seat, view)
+        elif isinstance(message, GameOver):
+            seat.over(message)
+
+    def _answer(self, server: Pooliad, seat: ProcessSeat, view: View) -> View | None:
+        """Ask for an action and send it; None when the turn is to be read again."""
+        action = self._ask(seat, view)
+        if action is None:
+            return None
+        simulated = self._budget.used - self._declared
+        try:
+            answer = server.play(view.game, view.version, action, simulated=simulated)
+        except PooliadError as error:
+            self._runner.incident(self._name, f"{view.game}: {error}"[:500])
+            return None
+        self._declared += simulated
+        return answer.view
+
+    def _ask(self, seat: ProcessSeat, view: View) -> Action | None:
+        if view.game != self._game:
+            self._game, self._declared = view.game, 0
+            self._budget = SimulationBudget(view.budget.simulations if view.budget else None)
+            seat.begin(self._budget)
+        left = None if view.seat is None else view.clocks[view.seat].seconds_left
+        try:
+            return seat.ask(view, left)
+        except Lost as lost:
+            self._runner.lost(view, lost.reason.value)
+        except Exception as error:
+            self._runner.incident(self._name, f"{view.game}: bad answer: {error}"[:500])
+        return None
+
+
+def _slug(name: str) -> str:
+    """A file's name for an entrant."""
+    return "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in name)
