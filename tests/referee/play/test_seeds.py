@@ -2,6 +2,8 @@
 
 import hashlib
 import hmac
+import random
+import time
 
 import pytest
 
@@ -123,8 +125,15 @@ def test_break_alternates_from_the_seeds_choice():
     assert {MatchSeed.of(seed).first_breaker for seed in range(20)} == {0, 1}
 
 
-def test_fresh_seeds_differ():
-    assert MatchSeed.fresh() != MatchSeed.fresh()
+def test_fresh_seeds_come_from_neither_clock_nor_generator(monkeypatch):
+    """Historical: noise followed from the time at which the server was started."""
+    monkeypatch.setattr(time, "time", lambda: 0.0)
+    monkeypatch.setattr(time, "time_ns", lambda: 0)
+    drawn = []
+    for _ in range(3):
+        random.seed(7)
+        drawn.append(MatchSeed.fresh().secret)
+    assert len(set(drawn)) == 3
 
 
 def test_hex_round_trip():

@@ -127,6 +127,33 @@ def test_a_forged_signature_is_found():
     assert verify_record(signed_lines(), []).verdict is Verdict.BAD_SIGNATURE
 
 
+def test_the_seal_of_another_record_fits_no_other():
+    """Signed by the right key, over other lines."""
+    objects = [json.loads(line) for line in signed_lines()[:-1]]
+    objects[0]["players"] = ["ann", "bob"]
+    chain = Chain()
+    others = [chain.add(each) for each in objects]
+    others.append(chain.add(signed_seal(KEY, chain.head, SIGNED_AT)))
+    assert verify_record(others, [KEY.public]).ok
+    moved = verify_record([*signed_lines()[:-1], others[-1]], [KEY.public])
+    assert (moved.verdict, moved.chain.line) == (Verdict.BROKEN_CHAIN, len(others))
+    fitted = json.loads(others[-1]) | {"previous": line_digest(signed_lines()[-2])}
+    assert verify_record([*signed_lines()[:-1], canonical(fitted)], [KEY.public]).verdict is Verdict.BAD_SIGNATURE
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("number", 10**15), ("number", -1), ("number", 0.5), ("games", 10**15), ("games", 0), ("first_breaker", 2)],
+)
+def test_a_hostile_header_keeps_nobody_busy(name, value):
+    """The chain of secrets is hashed as often as the header says: it may not say what it likes."""
+    objects = [json.loads(line) for line in signed_lines()]
+    objects[0] |= {"games": 10**15 if name == "number" else 1, name: value}
+    found = verify_record(chained(objects))
+    assert found.verdict is Verdict.MALFORMED
+    assert "line 1" in found.problem
+
+
 @pytest.mark.parametrize(("bounds", "ok"), [
     ((None, None), True),
     (("2026-11-22T04:00:00Z", None), True),
