@@ -11,6 +11,7 @@ BENCHMARKS = {
     "scaling": "balls, threads, batch size; cost of an event where nothing is near",
     "savings": "counters of the work done and skipped, and what each saving is worth",
     "chained": "10^5 random shots, each from where the last one ended, through JSON: is any start refused?",
+    "event_statistics": "coverage of the intervals of scores and ratings, error rates of the sequential test, by lot",
     "value": "weights of the value function behind the luck report, fitted to games of equal players",
     "agents": "the shipped greedy against random: games won, called balls made, seconds a stroke",
     "search": "the shipped search in pairs of games against greedy and against itself without its parts",

@@ -1,7 +1,7 @@
 """The weights of `tournament.luck.value`: a logistic regression on who won, over every turn of many games.
 
-The shipped `greedy` against itself, the noise level drawn for each game; a fifth of the games is kept out of the fit to
-see how well it predicts. Between equal players who wins is due to the situation and the noise alone.
+Two equal players by geometry (`benchmarks.potter`), the noise level drawn for each game; a fifth of the games is kept
+out of the fit to see how well it predicts. Between equal players who wins is due to the situation and the noise alone.
 """
 
 from collections.abc import Sequence
@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 import client
 from benchmarks.command import main
+from benchmarks.potter import Potter
 from benchmarks.recording import Row, Tables
 from referee.play.local import PlayedGame
 from tournament.luck.value import FEATURES, features
 
 SEED = 11
-GAMES = {True: 240, False: 5}
+GAMES = {True: 2400, False: 20}
 RIDGE = 1.0
 """Prior precision of every weight: as good as none for features that occur often."""
 HIGHEST = 5.0
@@ -41,7 +42,8 @@ def measure(full: bool) -> Tables:
 def play(number: int) -> PlayedGame:
     """One game of two equal players at its own noise level."""
     level = HIGHEST * float(np.random.default_rng((SEED, number)).random())
-    (game,) = client.play("greedy", "greedy", seed=SEED * 100_000 + number, noise=level).games
+    players = [lambda seat=seat: Potter(True, 2 * number + seat) for seat in (0, 1)]
+    (game,) = client.play(players[0], players[1], seed=SEED * 100_000 + number, noise=level).games
     return game
 
 

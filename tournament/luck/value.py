@@ -1,8 +1,8 @@
 """What a game that goes on is worth: the chance to win it, by a logistic function of what anybody can count.
 
-It has to be fixed before an event, or luck could be measured to taste. It need not be exact: whatever it is, luck has mean
-zero; the better it is, the more of the noise it explains. The weights were fitted to games between two equal players
-at noise levels drawn from [0, 5] (``benchmarks/value.py``; docs/benchmarks.md has the data).
+It has to be fixed before an event, or luck could be measured to taste. It need not be exact: whatever it is, luck has
+mean zero; the better it is, the more of the noise it explains. The weights were fitted to games between two equal
+players at noise levels drawn from [0, 5] (``benchmarks/value.py``; docs/benchmarks.md has the data).
 """
 
 import math
@@ -30,9 +30,10 @@ FEATURES: Final = (
 )
 """What is looked at, from the side of the player in turn:
 
-shooting: a stroke awaits, no break; shooting_noise: the same times the noise level; in_hand, in_kitchen: the cue ball is in
-hand anywhere, behind the head string; ahead: balls the opponent has left more; ahead_noise: the same times the level;
-at_eight, opponent_at_eight: only the 8 is left; open_table: no groups yet; breaking: a break awaits; deciding: a choice.
+shooting: a stroke awaits, no break; shooting_noise: the same times the noise level; in_hand, in_kitchen: the cue ball
+is in hand anywhere, behind the head string; ahead: balls the opponent has left more; ahead_noise: the same times the
+level; at_eight, opponent_at_eight: only the 8 is left; open_table: no groups yet; breaking: a break awaits; deciding: a
+choice.
 """
 
 

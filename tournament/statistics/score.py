@@ -120,12 +120,14 @@ def superiority(counts: Sequence[int]) -> float:
 
 
 _LARGEST_EXPONENT = 700.0
+_HALVINGS = 30
+"""A bound within 1e-9."""
 
 
 def _bound(weights: Sequence[float], threshold: float, mean: float, end: float) -> float:
     """Where between the mean and an end of [0, 1] the likelihood falls to the threshold."""
     inside, outside = mean, end
-    for _ in range(60):
+    for _ in range(_HALVINGS):
         middle = 0.5 * (inside + outside)
         if middle in (inside, outside):
             break

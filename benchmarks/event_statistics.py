@@ -1,0 +1,125 @@
+"""Do the statistics of events keep their promises? Simulated events with known truth.
+
+Coverage of the 95 % interval of a score, by true score, number of pairs and share of draws; error rates of the
+sequential test; coverage of the ratings of whole tables. A share of 2,000 events around 95 % has a standard deviation
+of 0.5 %.
+"""
+
+from functools import cache
+
+import numpy as np
+
+from benchmarks.command import main
+from benchmarks.pairs_by_lot import draw_cells
+from benchmarks.recording import Row, Tables
+from tournament import GameResult, SprtTerms
+from tournament.statistics import SprtState, Verdict, expected_score, rate, score_interval, sprt
+from tournament.statistics.bradley_terry import ELO_PER_UNIT
+
+SEED = 3
+EVENTS = {True: 2000, False: 200}
+SCORES, PAIRS, DRAWS = (0.5, 0.6, 0.75, 0.9), (5, 10, 20, 50, 100, 200), (0.0, 0.1, 0.4)
+TESTS = ((0.0, 50.0), (0.0, 100.0), (-25.0, 75.0), (0.0, 200.0))
+TABLES = ((2, 20, 0.5), (2, 100, 1.0), (4, 5, 0.7), (4, 20, 0.7), (8, 2, 0.7), (8, 5, 1.5), (12, 1, 1.0))
+"""Players, pairs of each meeting, half the spread of the true strengths."""
+LONGEST = 2000
+
+
+def measure(full: bool) -> Tables:
+    """All three studies."""
+    events = EVENTS[full]
+    return {
+        "coverage": [coverage(score, pairs, events) for pairs in PAIRS for score in SCORES],
+        "sprt": [errors(test, draws, events) for test in TESTS for draws in (0.0, 0.4)],
+        "ratings": [rating_coverage(*table, draws, events // 4) for table in TABLES for draws in (0.0, 0.4)],
+    }
+
+
+def coverage(score: float, pairs: int, events: int) -> Row:
+    """Share of events whose interval holds the true score, one column a share of draws."""
+    row: Row = {"pairs": pairs, "true_score": score}
+    for draws in DRAWS:
+        chance = np.random.default_rng((SEED, pairs, round(1000 * score), round(100 * draws)))
+        cells = draw_cells(score, draws, (events, pairs), chance)
+        intervals = [interval_of(tuple(np.bincount(one, minlength=5).tolist())) for one in cells]
+        held = np.mean([low <= score <= high for low, high in intervals])
+        row[f"covered_draws_{round(100 * draws)}"] = round(float(held), 4)
+        row[f"width_draws_{round(100 * draws)}"] = round(float(np.mean([high - low for low, high in intervals])), 3)
+    return row
+
+
+@cache
+def interval_of(counts: tuple[int, ...]) -> tuple[float, float]:
+    """The interval; few pairs repeat the same counts often."""
+    return score_interval(counts)
+
+
+def errors(test: tuple[float, float], draws: float, events: int) -> Row:
+    """Error rates of a sequential test with 5 % allowed for each, and how many pairs it took."""
+    terms = SprtTerms(*test)
+    at0, at1 = (states(terms, elo, draws, events) for elo in test)
+    verdicts0, verdicts1 = ([state.verdict for state in at] for at in (at0, at1))
+    return {
+        "elo0": test[0],
+        "elo1": test[1],
+        "draws": draws,
+        "false_elo1": round(verdicts0.count(Verdict.ELO1) / events, 4),
+        "false_elo0": round(verdicts1.count(Verdict.ELO0) / events, 4),
+        "allowed": terms.alpha,
+        "undecided": verdicts0.count(Verdict.OPEN) + verdicts1.count(Verdict.OPEN),
+        "pairs_at_elo0": round(float(np.mean([state.pairs for state in at0])), 1),
+        "pairs_at_elo1": round(float(np.mean([state.pairs for state in at1])), 1),
+        "events": events,
+    }
+
+
+def states(terms: SprtTerms, elo: float, draws: float, events: int) -> list[SprtState]:
+    """Tests run to their decision."""
+    chance = np.random.default_rng((SEED, round(elo) + 10_000, round(100 * draws)))
+    score = expected_score(elo)
+    return [sprt(terms, draw_cells(score, draws, (LONGEST,), chance).tolist()) for _ in range(events)]
+
+
+def rating_coverage(players: int, pairs: int, half: float, draws: float, events: int) -> Row:
+    """Share of ratings whose interval holds the true one, over all players of all events."""
+    chance = np.random.default_rng((SEED, players, pairs))
+    truth = np.linspace(-half, half, players)
+    held = total = 0
+    for _ in range(events):
+        for rating in rate(table_by_lot(truth, pairs, draws, chance)).table:
+            held += rating.low <= ELO_PER_UNIT * truth[int(rating.name)] <= rating.high
+            total += 1
+    return {
+        "players": players,
+        "pairs_a_meeting": pairs,
+        "elo_from_first_to_last": round(2.0 * half * ELO_PER_UNIT),
+        "draws": draws,
+        "covered": round(held / total, 4),
+        "ratings": total,
+    }
+
+
+def table_by_lot(truth: np.ndarray, pairs: int, draws: float, chance: np.random.Generator) -> list[GameResult]:
+    """A round robin of players of known strengths."""
+    games = []
+    for one in range(len(truth)):
+        for other in range(one + 1, len(truth)):
+            score = 1.0 / (1.0 + np.exp(truth[other] - truth[one]))
+            for index, cell in enumerate(draw_cells(score, draws, (pairs,), chance).tolist()):
+                games += pair_of(one, other, index, cell)
+    return games
+
+
+def pair_of(one: int, other: int, index: int, cell: int) -> list[GameResult]:
+    """Two games with so many half points for the first player."""
+    winners = ((1, 1), (None, 1), (0, 1), (0, None), (0, 0))[cell]
+    players = (str(one), str(other))
+    reasons = ["eight_made" if winner is not None else "stalemate" for winner in winners]
+    return [
+        GameResult(f"{one}-{other}-{index}", leg, players, leg, winners[leg], reasons[leg])  # type: ignore[arg-type]
+        for leg in (0, 1)
+    ]
+
+
+if __name__ == "__main__":
+    main("event_statistics", measure)
