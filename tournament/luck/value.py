@@ -79,4 +79,22 @@ def features(game: Game, noise: float) -> dict[str, float]:
     return {name: value for name, value in values.items() if value}
 
 
-VALUE: Final = ValueModel(MappingProxyType(dict.fromkeys(FEATURES, 0.0)), "none")
+VALUE: Final = ValueModel(
+    MappingProxyType(
+        {
+            "shooting": 0.1016,
+            "shooting_noise": -0.0228,
+            "in_hand": 0.0908,
+            "in_kitchen": 0.0205,
+            "ahead": 0.1116,
+            "ahead_noise": 0.0091,
+            "at_eight": 0.7092,
+            "opponent_at_eight": -0.4106,
+            "open_table": -0.0751,
+            "breaking": -0.0295,
+            "deciding": -0.0339,
+        }
+    ),
+    "value-20261122T025914",
+)
+"""What luck is measured by unless another function is given."""

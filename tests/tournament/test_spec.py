@@ -1,0 +1,100 @@
+"""The terms of an event (docs/tournaments.md, "Terms"): what they may be, and what they say when they cannot."""
+
+import json
+import math
+
+import pytest
+from support.events import spec_of
+
+from tournament import PRESETS, Entrant, InvalidSpec, NoisePlan, Spec, SprtTerms
+
+WHOLE = {"name": "Winter open", "entrants": ["greedy", {"name": "b", "agent": "python b.py"}]}
+
+
+@pytest.mark.parametrize(
+    "terms",
+    [
+        {},
+        {"format": "swiss", "rounds": 3, "noise": {"range": [0.0, 5.0], "told": False}},
+        {"format": "knockout", "drawn": "lot", "seeding": "drawn", "extra_pairs": 0, "seconds": None},
+        {"sprt": {"elo0": -5.0, "elo1": 5.0}, "seed": "ab" * 32, "simulated_shots": 1000},
+        {"noise": 2.5, "tie_breaks": ["wins", "seed"], "table": "fastfiz"},
+    ],
+)
+def test_terms_survive_json(terms):
+    spec = Spec.from_dict(WHOLE | terms)
+    assert Spec.from_dict(json.loads(json.dumps(spec.to_dict()))) == spec
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"pairs": 0}, "pairs = 0: an integer in [1, 100000]"),
+        ({"pairs": True}, "pairs = True: an integer"),
+        ({"pairs": 10**9}, "pairs = 1000000000"),
+        ({"format": "ladder"}, "format = 'ladder': one of round_robin, gauntlet, swiss, knockout"),
+        ({"format": "swiss"}, "rounds = None: how many rounds"),
+        ({"rounds": 3}, "rounds = 3: nothing"),
+        ({"format": "gauntlet", "challengers": 2}, "challengers = 2: fewer than the 2 entrants"),
+        ({"seconds": 0}, "seconds = 0: more than 0"),
+        ({"seconds": math.nan}, "seconds = nan: a number"),
+        ({"noise": 6}, "noise.levels = 6: a number in [0, 5]"),
+        ({"noise": {"range": [3, 1]}}, "noise.range = [3, 1]: the lowest level"),
+        ({"noise": {"levels": [1], "range": [0, 5]}}, "either levels or a range"),
+        ({"noise": {"levels": []}}, "either levels or a range"),
+        ({"noise": {"level": 1}}, "noise = ['level']: only the keys"),
+        ({"seed": "secret"}, "seed = '<6 letters>': 64 lower-case"),
+        ({"seed": -1}, "seed = -1"),
+        ({"table": "snooker"}, "table = 'snooker': olympiad, fastfiz"),
+        ({"table": {"width": -1}}, "table."),
+        ({"entrants": ["a", "a"]}, "entrants = 'a': names that are all different"),
+        ({"entrants": ["a"]}, "entrants = ['a']: a list of 2 to 1000"),
+        ({"entrants": ["a", "b\n"]}, "entrant.name = 'b\\n': printable letters"),
+        ({"entrants": ["a", "x" * 65]}, "a text of 1 to 64 letters"),
+        ({"entrants": ["a", {"name": "b", "age": 3}]}, "entrant = ['age']"),
+        ({"preset": "olympiad"}, "preset = 'olympiad': one of olympiad-noise-1"),
+        ({"wind": 3}, "event = ['wind']: only the keys"),
+        ({"sprt": {"elo0": 0, "elo1": 0}}, "sprt.elo1 = 0.0: more than elo0 = 0"),
+        ({"tie_breaks": ["luck"]}, "tie_breaks = 'luck'"),
+        ({"entrants": 3}, "entrants = 3"),
+    ],
+)
+def test_what_cannot_be_is_named(change, words):
+    with pytest.raises(InvalidSpec) as error:
+        Spec.from_dict(WHOLE | change)
+    assert words in str(error.value)
+
+
+@pytest.mark.parametrize("data", [None, [], "x", {}, {"name": "x"}])
+def test_what_is_no_event_is_refused(data):
+    with pytest.raises(InvalidSpec):
+        Spec.from_dict(data)
+
+
+def test_the_presets_are_the_olympiads_formats():
+    """Noise 1, 5, and variable in [0, 5] with the level told; 300 s; everybody meets everybody."""
+    specs = {name: Spec.from_dict(WHOLE | {"preset": name}) for name in PRESETS}
+    assert {name: spec.noise for name, spec in specs.items()} == {
+        "olympiad-noise-1": NoisePlan((1.0,)),
+        "olympiad-noise-5": NoisePlan((5.0,)),
+        "olympiad-variable-noise": NoisePlan.variable(0.0, 5.0),
+    }
+    assert {(spec.format, spec.seconds, spec.noise.told) for spec in specs.values()} == {("round_robin", 300.0, True)}
+
+
+def test_what_is_given_overrides_the_preset():
+    spec = Spec.from_dict(WHOLE | {"preset": "olympiad-noise-5", "seconds": 60.0})
+    assert (spec.seconds, spec.noise.levels) == (60.0, (5.0,))
+
+
+def test_published_terms_tell_no_secret():
+    spec = Spec("event", (Entrant("a", "python -m secret"), Entrant("b")), seed="5a" * 32)
+    published = json.dumps(spec.published())
+    assert "5a5a" not in published
+    assert "secret" not in published
+    assert "seed" not in spec.published()
+
+
+def test_an_sprt_is_no_knockout():
+    with pytest.raises(InvalidSpec, match="no knockout"):
+        spec_of(2, format="knockout", sprt=SprtTerms())
