@@ -55,7 +55,7 @@ def rows_of(games: Sequence[PlayedGame]) -> tuple[Floats, Floats]:
             continue
         for game in [played.header.start, *(stroke.game for stroke in played.strokes)]:
             if game.outcome is None:
-                found = features(game, played.header.noise.level)
+                found = features(game, played.header.terms.noise.level)
                 rows.append([found.get(name, 0.0) for name in FEATURES])
                 won.append(float(game.turn == played.outcome.winner))
     return np.array(rows), np.array(won)

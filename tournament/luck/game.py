@@ -69,14 +69,14 @@ def game_luck(
     header = Header.from_dict(read.header)
     key = hashlib.sha256(f"pooliad/1 luck {header.commitment}".encode("ascii")).digest()
     strokes = tuple(
-        stroke_luck(header.rules, before, action, after, header.noise, key=key, draws=draws, value=value)
+        stroke_luck(header.terms.rules, before, action, after, header.terms.noise, key=key, draws=draws, value=value)
         for before, action, after in steps(header.start, read.entries)
         if action.shot is not None
     )
     winner, reason = read.end["outcome"]["winner"], read.end["outcome"]["reason"]
     half = 0.0 if reason == "aborted" else 0.5
     points = (half, half) if winner is None else (float(winner == 0), float(winner == 1))
-    return GameLuck(header.players, header.noise.level, strokes, points)
+    return GameLuck(header.players, header.terms.noise.level, strokes, points)
 
 
 def steps(start: Game, entries: Iterable[dict[str, Any]]) -> Iterator[tuple[Game, Action, Game]]:
