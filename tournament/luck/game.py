@@ -67,7 +67,7 @@ def game_luck(
     """
     read = read_record(record)
     header = Header.from_dict(read.header)
-    key = hashlib.sha256(f"pooliad/1 luck {header.commitment}".encode("ascii")).digest()
+    key = hashlib.sha256(f"pooliad/1 luck {header.commitment} {header.number}".encode("ascii")).digest()
     strokes = tuple(
         stroke_luck(header.terms.rules, before, action, after, header.terms.noise, key=key, draws=draws, value=value)
         for before, action, after in steps(header.start, read.entries)
