@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from tournament.results import GameResult
@@ -99,10 +100,21 @@ def score_interval(counts: Sequence[int], confidence: float = CONFIDENCE) -> tup
     n = sum(counts)
     if n < 2:
         return 0.0, 1.0
-    t = student_quantile(0.5 + confidence / 2.0, n - 1)
-    threshold = 0.5 * n * math.log1p(t * t / (n - 1))
-    weights, mean = regularised(counts), mean_score(counts)
+    threshold, weights, mean = _threshold(n, confidence), regularised(counts), mean_score(counts)
     return _bound(weights, threshold, mean, 0.0), _bound(weights, threshold, mean, 1.0)
+
+
+def is_contradicted(counts: Sequence[int], score: float, confidence: float = CONFIDENCE) -> bool:
+    """Whether a mean score in (0, 1) lies outside the interval; quicker than the interval itself."""
+    n = sum(counts)
+    return n >= 2 and -profile(regularised(counts), score) > _threshold(n, confidence)
+
+
+@lru_cache(maxsize=1024)
+def _threshold(n: int, confidence: float) -> float:
+    """How far the log-likelihood may fall."""
+    t = student_quantile(0.5 + confidence / 2.0, n - 1)
+    return 0.5 * n * math.log1p(t * t / (n - 1))
 
 
 def superiority(counts: Sequence[int]) -> float:

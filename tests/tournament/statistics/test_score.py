@@ -9,7 +9,15 @@ from scipy import stats
 from support.events import play, spec_of
 
 from tournament import Event
-from tournament.statistics import MOST_ELO, elo_of, expected_score, score_interval, score_of, score_of_cells
+from tournament.statistics import (
+    MOST_ELO,
+    elo_of,
+    expected_score,
+    is_contradicted,
+    score_interval,
+    score_of,
+    score_of_cells,
+)
 from tournament.statistics.normal import student_cdf, student_quantile
 
 cells = st.lists(st.integers(0, 300), min_size=5, max_size=5)
@@ -71,6 +79,14 @@ def test_superior_at_975_is_an_interval_above_a_half(counts):
     score = score_of_cells(counts)
     if abs(score.superiority - 0.975) > 1e-6:
         assert (score.superiority > 0.975) == (score.low > 0.5)
+
+
+@given(cells.filter(lambda counts: sum(counts) > 1), st.floats(0.01, 0.99))
+@settings(max_examples=40, deadline=None)
+def test_what_is_contradicted_lies_outside_the_interval(counts, score):
+    low, high = score_interval(counts)
+    if min(abs(score - low), abs(score - high)) > 1e-6:
+        assert is_contradicted(counts, score) == (not low <= score <= high)
 
 
 def test_two_hundred_to_nothing_is_bounded_below():
