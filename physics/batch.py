@@ -16,6 +16,9 @@ from physics.simulation import N_COUNTERS, NO_COUNTERS, NO_TRACE, checked_positi
 from physics.state import TableState
 from physics.table import Table
 
+PARTS_PER_THREAD = 8
+"""A batch is cut finer than into one part a thread: a thread that was held up leaves its parts to the others."""
+
 FACTS_WORDS = FACTS_DTYPE.itemsize // 4
 """Size of one shot's facts in 32-bit words."""
 
@@ -94,12 +97,19 @@ def simulate_batch(
         *(NO_TRACE, 0, NO_COUNTERS if counters is None else _checked_counters(counters, n)),
     )
     run, row = kernels().simulate_rows, parameters(table)
+
+    def part(first: int, last: int) -> None:
+        if not isinstance(states, TableState):
+            _refuse_bad_rows(row, positions, first, last)
+        run(row, *workspace(), *arguments, first, last)
+
     if threads == 1 or n < 2:
-        run(row, *workspace(), *arguments, 0, n)
+        part(0, n)
         return batch
-    edges = [n * part // threads for part in range(threads + 1)]
+    parts = min(n, PARTS_PER_THREAD * threads)
+    edges = [n * k // parts for k in range(parts + 1)]
     with ThreadPoolExecutor(threads) as pool:
-        for _ in pool.map(lambda first, last: run(row, *workspace(), *arguments, first, last), edges[:-1], edges[1:]):
+        for _ in pool.map(part, edges[:-1], edges[1:]):  # in order: the first bad row is the one named
             pass
     return batch
 
@@ -137,12 +147,17 @@ def _checked_states(table: Table, states: TableState | NDArray[np.float64], n: i
         raise InvalidState(
             "states", (positions.dtype.name, positions.shape), f"must be float64 of shape ({n}, {N_BALLS}, 2)"
         )
-    flat = positions.reshape(n, 2 * N_BALLS)
+    return positions.reshape(n, 2 * N_BALLS)
+
+
+def _refuse_bad_rows(parameters: NDArray[np.float64], positions: NDArray[np.float64], first: int, last: int) -> None:
+    """Raise for the first of rows ``first`` to ``last`` - 1 whose balls are off the table or overlap."""
     least = 2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE
-    row, ball, other = kernels().first_bad_row(parameters(table), flat, least * least, PLACEMENT_TOLERANCE)
-    if row >= 0:
-        allowed = "must be two finite numbers inside the cushion lines and outside the mouths"
-        if other >= 0:
-            allowed = f"overlaps ball {other}; centres must be at least {2.0 * BALL_RADIUS} m apart"
-        raise InvalidState(f"states[{row}][{ball}]", positions[row, ball].tolist(), allowed)
-    return flat
+    find = kernels().first_bad_row
+    row, ball, other = find(parameters, positions, least * least, PLACEMENT_TOLERANCE, first, last)
+    if row < 0:
+        return
+    allowed = "must be two finite numbers inside the cushion lines and outside the mouths"
+    if other >= 0:
+        allowed = f"overlaps ball {other}; centres must be at least {2.0 * BALL_RADIUS} m apart"
+    raise InvalidState(f"states[{row}][{ball}]", positions[row, 2 * ball : 2 * ball + 2].tolist(), allowed)

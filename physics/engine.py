@@ -23,6 +23,7 @@ WORK_FLOATS, WORK_INTEGERS = 632, 216
 """Size of the kernels' memory: W_SIZE and K_SIZE of ``physics.kernels.layout``, which a test compares."""
 
 _LOADING = threading.Lock()
+_THREAD = threading.local()
 
 CACHE_VARIABLE = "POOLIAD_CACHE_DIR"
 """Environment variable naming the folder for compiled kernels; else the user's cache folder."""
@@ -68,8 +69,11 @@ def _usable(place: Path) -> Path | None:
 
 
 def workspace() -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Fresh memory for the kernels to work out one shot at a time in; not to be shared between threads."""
-    return np.empty((1, WORK_FLOATS)), np.empty((1, WORK_INTEGERS), np.int64)
+    """This thread's memory for the kernels to work out one shot at a time in."""
+    memory: tuple[NDArray[np.float64], NDArray[np.int64]] | None = getattr(_THREAD, "memory", None)
+    if memory is None:
+        memory = _THREAD.memory = np.empty((1, WORK_FLOATS)), np.empty((1, WORK_INTEGERS), np.int64)
+    return memory
 
 
 @functools.cache

@@ -182,10 +182,13 @@ def time_of_contact(cx, cy, bx, by, ax, ay, t_max, distance):
 
 
 @entry
-def first_bad_row(p, positions, least_squared, slack):
-    """(row, ball, other) of the first state with a bad place or an overlap (then ``other`` >= 0); (-1, -1, -1)."""
+def first_bad_row(p, positions, least_squared, slack, first, last):
+    """(row, ball, other) of the first state with a bad place or an overlap (then ``other`` >= 0); (-1, -1, -1).
+
+    Rows ``first`` to ``last`` - 1 are looked at.
+    """
     table = row(p, 0)
-    for n in range(positions.shape[0]):
+    for n in range(first, last):
         for i in range(LANES):
             x, y = positions[n, 2 * i], positions[n, 2 * i + 1]
             if x != x and y != y:

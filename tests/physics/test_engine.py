@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -70,9 +71,11 @@ def test_numbers_of_states_kinds_and_statuses_are_those_of_the_layout() -> None:
         assert getattr(strike, name) == status.Status[name]
 
 
-def test_a_workspace_is_nobody_elses() -> None:
-    """Kernels address memory by pointer: two live workspaces must not share any (found as heap corruption)."""
-    first, second = engine.workspace(), engine.workspace()
+def test_a_workspace_is_no_other_threads() -> None:
+    """Kernels address memory by pointer: two threads' workspaces must not share any (found as heap corruption)."""
+    with ThreadPoolExecutor(1) as other:
+        first, second = engine.workspace(), other.submit(engine.workspace).result()
+    assert engine.workspace() is first
     assert not np.shares_memory(first[0], second[0])
     assert not np.shares_memory(first[1], second[1])
 

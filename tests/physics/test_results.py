@@ -215,10 +215,21 @@ def test_bad_states_of_a_batch_name_the_row():
     for bad in (overlapping, outside, infinite):
         with pytest.raises(physics.InvalidState, match=r"states\[1\]"):
             physics.simulate_batch(OPEN, np.stack([good, bad]), shots)
+    with pytest.raises(physics.InvalidState, match=r"states\[0\]"):
+        physics.simulate_batch(OPEN, np.stack([outside]), shots[:1])
     with pytest.raises(physics.InvalidState, match="shape"):
         physics.simulate_batch(OPEN, np.stack([good]), shots)
     with pytest.raises(physics.InvalidState, match="float64"):
         physics.simulate_batch(OPEN, np.stack([good, good]).astype(np.float32), shots)
+
+
+def test_threads_name_the_first_of_several_bad_rows() -> None:
+    states = np.repeat(STATE_1.positions[None], 200, axis=0)
+    for row in (37, 120, 199):
+        states[row, 4] = (0.0, 0.5)
+    for threads in (1, 3):
+        with pytest.raises(physics.InvalidState, match=r"states\[37\]"):
+            physics.simulate_batch(OPEN, states, np.repeat(SHOTS_1, 200, axis=0)[:200], threads=threads)
 
 
 @pytest.mark.parametrize("threads", [0, -1, 1.5, True])
