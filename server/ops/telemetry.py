@@ -17,6 +17,8 @@ HEADER: Final = b"x-request-id"
 USABLE = re.compile(rb"[A-Za-z0-9._:-]{1,64}")
 """An id that a client or a proxy may choose."""
 READS = frozenset({"GET", "HEAD"})
+PROBES = frozenset({"/healthz", "/readyz", "/metrics"})
+"""Asked by machines, again and again."""
 
 
 class Telemetry:
@@ -53,7 +55,8 @@ class Telemetry:
         method, route = _known(scope["method"]), getattr(scope.get("route"), "path", "none")
         self._metrics.requests.labels(method, route, status).inc()
         self._metrics.request_seconds.labels(method, route).observe(seconds)
-        level = logging.DEBUG if method in READS and status < 400 else logging.INFO
+        quiet = route in PROBES or (method in READS and status < 400)
+        level = logging.DEBUG if quiet else logging.INFO
         if log.isEnabledFor(level):
             fields = {"method": method, "path": scope["path"], "status": status, "seconds": round(seconds, 6)}
             game = scope.get("path_params", {}).get("game_id")
