@@ -139,12 +139,15 @@ def agent_digest() -> str:
     return digest_of(Path(str(inspect.getfile(SearchAgent))).parent)[:12]
 
 
-def pool() -> Tables:
-    """All pairs of the present agent, by match-up."""
+def pool(agents: list[str]) -> Tables:
+    """All pairs of these versions of the agent, by match-up.
+
+    Versions may be pooled whose play does not differ, or not under that noise; each row names those it holds.
+    """
     groups: dict[tuple[str, str, float], dict[int, Row]] = defaultdict(dict)
     for line in recording.lines("search"):
         for row in line["tables"].get("pairs", []):
-            if row["agent"] == agent_digest():
+            if row["agent"] in agents:
                 groups[row["player"], row["opponent"], row["noise"]][row["pair"]] = row
     return {"matches": [match_row(*key, list(rows.values())) for key, rows in sorted(groups.items())]}
 
@@ -161,6 +164,7 @@ def match_row(player: str, opponent: str, noise: float, pairs: list[Row]) -> Row
         "player": player,
         "opponent": opponent,
         "noise": noise,
+        "agents": sorted({row["agent"] for row in pairs}),
         "pairs": len(pairs),
         "score": round(float(scores.mean()), 4),
         "low_95": round(low, 4),
@@ -213,7 +217,8 @@ def main() -> None:
     """Play a piece, or pool them all."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.search")
     commands = parser.add_subparsers(required=True, dest="command")
-    commands.add_parser("pool")
+    pooled = commands.add_parser("pool")
+    pooled.add_argument("agents", nargs="*", default=[agent_digest()], help="versions; the present one unless given")
     piece = commands.add_parser("play")
     piece.add_argument("--player", default="search:seconds=1,cpu=on")
     piece.add_argument("--opponent", default="greedy")
@@ -222,7 +227,7 @@ def main() -> None:
     piece.add_argument("--pairs", type=int, default=10)
     piece.add_argument("--seconds", type=float, default=240.0)
     given = parser.parse_args()
-    todo: Callable[[bool], Tables] = lambda _full: pool()  # noqa: E731
+    todo: Callable[[bool], Tables] = lambda _full: pool(given.agents)  # noqa: E731
     if given.command == "play":
         players = given.player, given.opponent
         todo = lambda _full: play(players, given.noise, given.first, given.pairs, given.seconds)  # noqa: E731

@@ -20,7 +20,7 @@ def test_a_pair_is_two_games_on_the_same_racks():
 def test_pieces_are_pooled_by_match_up():
     side = dict.fromkeys(("breaks", "runs", "called", "made", "safeties", "strokes", "simulated"), 1)
     pairs = [
-        {"pair": pair, "of_player": side | {"points": points, "seconds": 0.5, "fouls": {"R32": 1}}}
+        {"pair": pair, "agent": "v1", "of_player": side | {"points": points, "seconds": 0.5, "fouls": {"R32": 1}}}
         | {"of_opponent": side | {"points": 2.0 - points, "seconds": 0.1, "fouls": {}}}
         for pair, points in enumerate([2.0, 2.0, 1.0, 2.0])
     ]

@@ -1,6 +1,7 @@
 """`search` on known positions and over whole games (docs/agents.md)."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -179,6 +180,42 @@ class Ticking:
 
     def __call__(self):
         return self.now
+
+
+class Slow(client.Simulator):
+    """The physics on a machine that gets through ten thousand shots a second, by a clock of its own."""
+
+    def __init__(self, clock):
+        super().__init__()
+        self._clock = clock
+
+    def simulate_batch(self, table, states, shots, threads=1):
+        self._clock.now += 1e-4 * len(shots)
+        return super().simulate_batch(table, states, shots, threads)
+
+
+def test_it_is_never_out_of_time(monkeypatch):
+    """Forty strokes on a clock of 20 s, on a machine three times slower than it guesses at first."""
+    clock, left = Ticking(), 20.0
+    monkeypatch.setattr("client.agents.search.agent.time", SimpleNamespace(perf_counter=clock))
+    agent = SearchAgent(seed=1, seconds=2.0)
+    agent.simulator = Slow(clock)
+    balls = {0: (0.5, 1.0), 1: (0.3, 0.3), 2: (0.8, 0.5), 5: (1.0, 1.0), 9: (0.7, 1.7), 8: (0.2, 1.8)}
+    agent.game_started(view_of(balls, seconds=left))
+    for _ in range(40):
+        before = clock.now
+        agent.choose(view_of(balls, seconds=left))
+        left -= clock.now - before
+        assert left > 0.0
+    assert left < 16.0  # and it does use its time
+
+
+def test_more_seconds_are_more_shots():
+    """Anytime: what it simulates grows with the time it is given."""
+    balls = {0: (0.5, 1.0), 1: (0.3, 0.3), 2: (0.8, 0.5), 9: (0.7, 1.7), 8: (0.2, 1.8)}
+    simulated = [choice(balls, shots=shots)[1].simulated for shots in (1_000, 4_000, 16_000)]
+    assert simulated == sorted(simulated)
+    assert simulated[2] > 3 * simulated[1]
 
 
 def test_seconds_left_are_never_used_up():
