@@ -37,12 +37,12 @@ class SearchAgent(Agent):
     def __init__(self, seed: int | None = None, **options: Any) -> None:
         self._seed = seed
         self._options = Options.of(options)
+        geometry()  # before any clock runs
         self._pace = Pace()
         self.thoughts: list[Thought] = []
 
     def game_started(self, view: View) -> None:
         """Set up for this game's table and noise."""
-        geometry()
         self._chance = generator(self._seed, view)
         self._noise = USUAL_NOISE if view.noise.level is None else view.noise.level
         self._rules = EightBall(view.table_model())

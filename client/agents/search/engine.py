@@ -21,10 +21,23 @@ SIDES = (1, 4)
 
 @functools.cache
 def geometry() -> Any:
-    """The module of compiled geometry; compiled once for a processor and kept beside the physics."""
+    """The module of compiled geometry, ready; compiled once for a processor (some 10 s) and kept beside the physics."""
     physics_kernels()
     with _LOADING:  # numba's setting below is the whole process's
-        return _load()
+        module = _load()
+        _call_once(module)
+    return module
+
+
+def _call_once(module: Any) -> None:
+    """Call every entry as `Sight` does: that is when it is compiled, or taken from the cache."""
+    row, positions = table_row(Table.olympiad()), np.full((1, 16, 2), np.nan)
+    positions[0, :2] = (0.5, 1.0), (0.3, 0.5)
+    one, flag, number = np.zeros(1), np.zeros(1, bool), np.zeros(1, np.int64)
+    module.survey(row, positions, 1e-3, flag, 0.0, np.empty((1, 2, 4)))
+    floats, integers = [np.zeros((1, 1)) for _ in range(3)], [np.zeros((1, 1), np.int64) for _ in range(2)]
+    module.list_pots(row, positions, np.ones((1, 16), bool), 1e-3, *integers, *floats)
+    module.elevations(row, positions, number, one, one, one, 0.1, one.copy())
 
 
 @functools.cache
