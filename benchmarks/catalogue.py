@@ -19,5 +19,6 @@ BENCHMARKS = {
     "search_habits": "what typically happens in games of search: the constants behind its values",
     "saturation": "times of strokes while one client keeps the batch endpoint busy, and while none does",
     "search_breaks": "the study behind the break of `search`: random breaks, halved again and again",
+    "tournaments": "events of in-process agents: games per second, in one process and with one and two workers",
 }
 """Module in this package to one line about it."""

@@ -34,6 +34,7 @@ def commands() -> typer.Typer:
         ("run", run),
         ("resume", resume),
         ("status", status),
+        ("report", report),
         ("pause", pause),
         ("go-on", go_on),
         ("abort", abort),
@@ -45,7 +46,7 @@ def commands() -> typer.Typer:
 
 
 def run(
-    file: Annotated[Path, typer.Argument(help="The event's terms, TOML (docs/tournaments.md).")],
+    file: Annotated[Path, typer.Argument(help="The event's terms, TOML (docs/running-tournaments.md).")],
     out: Annotated[Path | None, typer.Option(help="Directory for the event; the file's name unless given.")] = None,
     executor: Executor = "processes",
     workers: Workers = None,
@@ -92,6 +93,30 @@ def status(directory: Event, as_json: Json = False) -> None:
     """How an event stands, running or not."""
     event = _opened(directory)
     _report(event, _ledger(event), as_json)
+
+
+def report(directory: Event, as_json: Json = False) -> None:
+    """Write an event's report, finished or not: a page, JSON, and tables for analysis, into its directory."""
+    import json
+
+    from client.arena.directory import write_whole
+    from tournament.report import csv_text, event_report, json_lines, page
+
+    event = _opened(directory)
+    played = _ledger(event).event
+    data = event_report(played)
+    texts = {
+        "report.html": page(data),
+        "report.json": json.dumps(data, ensure_ascii=False, allow_nan=False, indent=2) + "\n",
+        "results.csv": csv_text(played.counted),
+        "results.jsonl": "".join(f"{line}\n" for line in json_lines(played.counted)),
+    }
+    for name, text in texts.items():
+        write_whole(directory / name, text.encode())
+    if as_json:
+        emit(data)
+    else:
+        say(f"{', '.join(texts)} in {directory}; open {directory / 'report.html'} in a browser")
 
 
 def pause(directory: Event, reason: Reason = "") -> None:

@@ -18,7 +18,7 @@ class TournamentRequest(Request):
     """``POST /v1/tournaments``: a new event.
 
     Attributes:
-        terms: as in an event file (docs/tournaments.md): ``name``, ``entrants``, ``format``, ``pairs``, ``noise``, …
+        terms: as in an event file (docs/running-tournaments.md): ``name``, ``entrants``, ``format``, ``pairs``, ...
             The seed is a secret of the organiser's; drawn by the server unless given.
         agents: entrant's name to the id of the agent that plays under it. An entrant left out is played by the
             agent of the same name.

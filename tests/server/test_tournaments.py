@@ -1,4 +1,4 @@
-"""Tournaments over HTTP: docs/tournaments.md, Over HTTP; docs/protocol.md, Tournaments."""
+"""Tournaments over HTTP: docs/running-tournaments.md, Over HTTP; docs/protocol.md, Tournaments."""
 
 import itertools
 import signal

@@ -1,4 +1,4 @@
-"""How entrants are run: docs/tournaments.md, Entrants."""
+"""How entrants are run: docs/running-tournaments.md, Entrants."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""The journal: docs/tournaments.md, What is on the disk."""
+"""The journal: docs/running-tournaments.md, What is on the disk."""
 
 import multiprocessing
 

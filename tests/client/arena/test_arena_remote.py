@@ -1,4 +1,4 @@
-"""Events at a server: docs/tournaments.md, Over HTTP."""
+"""Events at a server: docs/running-tournaments.md, Over HTTP."""
 
 import json
 import sys

@@ -1,0 +1,62 @@
+"""`pooliad tournament`: docs/running-tournaments.md."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from client.cli import application
+
+CUP = """
+name = "Cup"
+seconds = 100
+seed = 4
+entrants = ["random", {name = "other", agent = "random"}]
+"""
+
+
+@pytest.fixture
+def cli(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "cup.toml").write_text(CUP)
+
+    def call(*arguments, code=0):
+        done = CliRunner().invoke(application(), ["tournament", *map(str, arguments)])
+        assert done.exit_code == code, done.output
+        return done
+
+    return call
+
+
+def test_an_event_from_its_file_to_its_report(cli, tmp_path):
+    estimate = json.loads(cli("run", "cup.toml", "--dry-run", "--json").stdout)
+    assert estimate["games"] == [2, 2]
+    assert estimate["longest_seconds"] == 400.0 / estimate["workers"]
+    assert not (tmp_path / "cup").exists()
+    played = json.loads(cli("run", "cup.toml", "--executor", "inline", "--json").stdout)
+    assert (played["state"], played["games"], played["due"]) == ("finished", 2, 0)
+    assert json.loads(cli("status", "cup", "--json").stdout)["standings"] == played["standings"]
+    report = json.loads(cli("report", "cup", "--json").stdout)
+    assert report["standings"] == played["standings"]
+    assert "<html" in (tmp_path / "cup" / "report.html").read_text()
+    assert len((tmp_path / "cup" / "results.jsonl").read_text().splitlines()) == 2
+    assert "Cup" in cli("status", "cup").stdout
+
+
+def test_decisions_are_noted_with_who_and_why(cli, tmp_path):
+    cli("run", "cup.toml", "--executor", "inline")
+    cli("void", "cup", "r0-m0-p0", "1", "--reason", "wrong cloth")
+    line = json.loads((tmp_path / "cup" / "journal.jsonl").read_text().splitlines()[-1])
+    assert (line["kind"], line["reason"], line["leg"]) == ("void", "wrong cloth", 1)
+    assert line["by"]
+    assert json.loads(cli("status", "cup", "--json").stdout)["due"] == 1
+    assert json.loads(cli("resume", "cup", "--executor", "inline", "--json").stdout)["state"] == "finished"
+    assert "game with a result" in cli("void", "cup", "r7-m0-p0", "0", code=2).stderr
+    assert "entrant" in cli("disqualify", "cup", "nobody", code=2).stderr
+    cli("abort", "cup")
+    assert "aborted" in cli("pause", "cup", code=2).stderr
+
+
+def test_an_event_at_a_server_takes_a_token(cli, monkeypatch):
+    monkeypatch.delenv("POOLIAD_ORGANISER_TOKEN", raising=False)
+    assert "token" in cli("run", "cup.toml", "--server", "http://127.0.0.1:9", code=2).stderr
