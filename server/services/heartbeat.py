@@ -10,7 +10,7 @@ import logging
 import secrets
 from collections.abc import AsyncIterator
 
-from sqlalchemy import Connection, delete, func, insert, select, update
+from sqlalchemy import delete, func, insert, select, update
 from starlette.concurrency import run_in_threadpool
 
 from server.services import turn_clock
@@ -74,20 +74,21 @@ def begin(context: Context, process: str, *, alone: bool) -> None:
             last = writing.connection.scalar(select(func.max(heartbeats.c.beat_at)))
             _take_up_games(writing, writing.now if last is None else min(last, writing.now))
             writing.connection.execute(delete(heartbeats))
-        writing.connection.execute(insert(heartbeats).values(process=process, beat_at=writing.now, stopped=False))
+        _beat(writing, process, stopped=False)
 
 
 def beat(context: Context, process: str, *, stopped: bool = False) -> None:
     """One more heartbeat."""
     with context.writing() as writing:
-        _beat(writing.connection, process, writing.now, stopped)
+        _beat(writing, process, stopped)
 
 
-def _beat(connection: Connection, process: str, now: int, stopped: bool) -> None:
+def _beat(writing: Writing, process: str, stopped: bool) -> None:
     this = heartbeats.c.process == process
-    values = {"beat_at": now, "stopped": stopped}
-    if connection.execute(update(heartbeats).where(this).values(values)).rowcount != 1:
-        connection.execute(insert(heartbeats).values(process=process, **values))
+    present = sorted(writing.context.presence.here(writing.now))
+    values = {"beat_at": writing.now, "stopped": stopped, "present": present}
+    if writing.connection.execute(update(heartbeats).where(this).values(values)).rowcount != 1:
+        writing.connection.execute(insert(heartbeats).values(process=process, **values))
 
 
 def _take_up_games(writing: Writing, last: int) -> None:

@@ -8,13 +8,16 @@ from typing import Any, Final, NamedTuple
 from fastapi.sse import format_sse_event
 from sqlalchemy import Connection, Row, Select, func, select
 
+from referee.play import nanoseconds
 from referee.wire import GameAnswer, StreamClocks, StreamConnections, StreamResult, of_many
 from server.services.context import Context
 from server.services.live import LiveGame, find
 from server.services.match_views import summary
-from server.store.tables import games, matches, moves
+from server.store.tables import games, heartbeats, matches, moves
 
 RESULT: Final = "result"
+BEATS: Final = 3
+"""Heartbeats a process may miss before its word on who is there is no longer taken."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +103,8 @@ def _moved(context: Context, connection: Connection, known: Mapping[str, Standin
         *(matches.c.seat_0, matches.c.seat_1),
     ).join(matches, games.c.match_id == matches.c.id)
     rows = connection.execute(columns.where(games.c.id.in_(known))).all()
-    return [row.id for row in rows if _marks(context, row, (row.seat_0, row.seat_1)) != known[row.id].marks]
+    here = _here(context, connection)
+    return [row.id for row in rows if _marks(here, row, (row.seat_0, row.seat_1)) != known[row.id].marks]
 
 
 def _rest(context: Context, live: LiveGame, after: Standing, before: Standing | None = None) -> Iterator[News]:
@@ -131,12 +135,21 @@ def _strokes(connection: Connection, game_id: str, after: int) -> Iterator[News]
 
 def _standing(context: Context, connection: Connection, live: LiveGame) -> Standing:
     last = select(func.max(moves.c.sequence)).where(moves.c.game_id == live.id)
-    return Standing(_marks(context, live.row, live.agents), connection.scalar(last) or 0)
+    return Standing(_marks(_here(context, connection), live.row, live.agents), connection.scalar(last) or 0)
 
 
-def _marks(context: Context, row: Row[Any], seats: tuple[str, str]) -> Marks:
-    """Whoever thinks about a turn it has fetched is there, and whoever polls; nobody is when the game is over."""
+def _here(context: Context, connection: Connection) -> frozenset[str]:
+    """The agents that poll this process, or another one on the same database."""
     now = context.time.now()
+    here = context.presence.here(now)
+    if not context.database.is_shared:
+        return here
+    fresh = heartbeats.c.beat_at > now - nanoseconds(BEATS * context.settings.heartbeat_period)
+    return here.union(*connection.scalars(select(heartbeats.c.present).where(fresh, ~heartbeats.c.stopped)))
+
+
+def _marks(here: frozenset[str], row: Row[Any], seats: tuple[str, str]) -> Marks:
+    """Whoever thinks about a turn it has fetched is there, and whoever polls; nobody is when the game is over."""
     thinks = row.mover if row.delivered else None
-    here = (row.mover is not None and (seat == thinks or context.presence.is_here(seat, now)) for seat in seats)
-    return Marks(row.version, row.delivered, row.clock_from, (next(here), next(here)))
+    connected = [row.mover is not None and (seat == thinks or seat in here) for seat in seats]
+    return Marks(row.version, row.delivered, row.clock_from, (connected[0], connected[1]))

@@ -9,7 +9,7 @@ LATELY = 10 * SECOND_NS
 
 
 class Presence:
-    """Who polls this process. Changed on the event loop, read from any thread."""
+    """Who polls this process. Entered and left on the event loop, read from any thread."""
 
     def __init__(self) -> None:
         self._polls: Counter[str] = Counter()
@@ -26,6 +26,7 @@ class Presence:
         if self._polls[agent] <= 0:
             del self._polls[agent]
 
-    def is_here(self, agent: str, now: int) -> bool:
-        """Whether the agent polls, or did so lately."""
-        return agent in self._polls or now - self._last.get(agent, -LATELY) < LATELY
+    def here(self, now: int) -> frozenset[str]:
+        """The agents that poll, or did so lately."""
+        lately = (agent for agent, last in tuple(self._last.items()) if now - last < LATELY)
+        return frozenset(tuple(self._polls)).union(lately)

@@ -180,8 +180,9 @@ heartbeats = Table(
     Column("process", Identifier, primary_key=True),
     Column("beat_at", BigInteger, nullable=False),
     Column("stopped", Boolean, nullable=False),
+    Column("present", JSON, nullable=False),
 )
-"""When each server process was last alive; `stopped`: it left in good order."""
+"""When each server process was last alive; `stopped`: it left in good order; `present`: the agents that poll it."""
 
 moves = Table(
     "moves",

@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import psycopg
 import pytest
+from support.streams import until, watching
 
 from referee.record import verify_record
 
@@ -75,6 +76,23 @@ def test_a_stroke_here_wakes_a_poll_there(pair, table_at, break_shot):
         assert answer.status_code == 200, answer.text
         assert poll.result()["type"] == "game_over"
     assert time.monotonic() - played < PROMPT
+
+
+def test_a_spectator_here_sees_the_players_there(pair, table_at, break_shot):
+    """Strokes at once, by the hint; who waits within a few heartbeats, by the database."""
+    here, there = pair
+    table = at(there, table_at(there, noise={"level": 0.0}))
+    with watching(here, f"/v1/games/{table.game}/stream") as events:
+        mover, view = table.mover()
+        with ThreadPoolExecutor(1) as pool:
+            poll = pool.submit(table.players[1 - view["seat"]].turn, 20)
+            while until(events, "connections")[-1].data["connected"] != [True, True]:
+                pass
+            played = time.monotonic()
+            assert mover.post(f"/v1/games/{view['game']}/concede", version=view["version"]).status_code == 200
+            assert [one.kind for one in until(events, "result") if one.id] == ["decision"]
+            assert time.monotonic() - played < PROMPT
+            poll.result()
 
 
 def test_a_lost_connection_of_the_hints_costs_time_and_nothing_else(own_server, table_at):
