@@ -49,6 +49,7 @@ from referee.wire.tokens import InvitationRequest, Invitations, TokenList, Token
 from referee.wire.tournaments import (
     DisqualifyRequest,
     EntryView,
+    RatingView,
     SequentialTestView,
     StandingsView,
     StandingView,
@@ -116,6 +117,7 @@ __all__ = [
     "ProblemCode",
     "RackTerms",
     "RackView",
+    "RatingView",
     "RulingView",
     "SeatLedger",
     "SeedWanted",

@@ -161,10 +161,25 @@ class SequentialTestView(Message):
     pairs: Integer
 
 
+class RatingView(Message):
+    """An entrant's rating (Bradley and Terry): Elo points above the mean, with its interval of 95 % confidence."""
+
+    name: str
+    elo: Number
+    low: Number
+    high: Number
+    games: Integer
+
+
 class StandingsView(Message):
-    """``GET /v1/tournaments/{id}/standings``."""
+    """``GET /v1/tournaments/{id}/standings``.
+
+    Attributes:
+        standings: the best first. ratings: likewise; nobody's while no game counts.
+    """
 
     tournament: Identifier
     status: TournamentStatus
     standings: tuple[StandingView, ...]
+    ratings: tuple[RatingView, ...]
     test: SequentialTestView | None

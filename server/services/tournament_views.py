@@ -9,6 +9,7 @@ from referee.game import Outcome
 from referee.wire import (
     EntryView,
     OutcomeView,
+    RatingView,
     SequentialTestView,
     StandingsView,
     StandingView,
@@ -21,6 +22,7 @@ from server.services.time import date_time
 from server.store.tables import tournament_games
 from tournament import GameResult, Pair, standings
 from tournament.ledger import Ledger
+from tournament.statistics import rate
 
 Key = tuple[str, int, int]
 """Pair, leg and attempt of a game."""
@@ -49,7 +51,9 @@ def standings_view(connection: Connection, row: Row[Any]) -> StandingsView:
     event = events.ledger_of(connection, row).event
     lines = tuple(StandingView(**line.to_dict(), agent=row.agents[line.name]) for line in standings(event))
     test = None if event.test is None else SequentialTestView(**asdict(event.test))
-    return StandingsView(tournament=row.id, status=row.status, standings=lines, test=test)
+    rated = rate(event.counted, event.spec.names).table if event.counted else ()
+    ratings = tuple(RatingView(**rating.to_dict()) for rating in rated)
+    return StandingsView(tournament=row.id, status=row.status, standings=lines, ratings=ratings, test=test)
 
 
 def _summary(row: Row[Any], ledger: Ledger) -> dict[str, Any]:

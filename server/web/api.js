@@ -71,7 +71,17 @@ export function command(path, body, { version, key = newKey() } = {}) {
 
 /** A name for a request. (`crypto.randomUUID` is missing on pages without TLS.) */
 export function newKey() {
-  const bytes = crypto.getRandomValues(new Uint8Array(16));
+  return randomDigits(16);
+}
+
+/** A player's own seed for the draw of racks and noise. */
+export function newSeed() {
+  return randomDigits(32);
+}
+
+/** @param {number} count bytes, as hexadecimal digits */
+function randomDigits(count) {
+  const bytes = crypto.getRandomValues(new Uint8Array(count));
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 

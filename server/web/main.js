@@ -3,7 +3,9 @@
 import { announce, el, fill } from "./dom.js";
 import { AgentView } from "./view_agent.js";
 import { GameView } from "./view_game.js";
-import { LobbyView, MatchView } from "./view_lobby.js";
+import { LobbyView } from "./view_lobby.js";
+import { MatchView } from "./view_match.js";
+import { TournamentView } from "./view_tournament.js";
 
 const main = /** @type {HTMLElement} */ (document.getElementById("main"));
 /** @type {{element: HTMLElement, close: () => void}} */
@@ -17,6 +19,7 @@ const ROUTES = [
     make: ([, game, stroke]) => opened(new GameView(), (view) => view.watch(game, stroke === undefined ? null : Number(stroke))),
   },
   { at: /^\/matches\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new MatchView(), (view) => view.open(id)) },
+  { at: /^\/tournaments\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new TournamentView(), (view) => view.open(id)) },
   { at: /^\/play$/, page: "play", make: async () => opened(new (await import("./view_play.js")).PlayView(), (view) => view.open()) },
   { at: /^\/lab$/, page: "lab", make: async () => opened(new (await import("./view_lab.js")).LabView(), (view) => view.open()) },
   { at: /^\/agents\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new AgentView(), (view) => view.open(id)) },

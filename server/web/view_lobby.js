@@ -1,10 +1,11 @@
 /** The lobby: live games in small, what comes next, matches, agents. */
 
 import { get } from "./api.js";
-import { el, fill } from "./dom.js";
+import { el } from "./dom.js";
 import { watchGames } from "./live.js";
 import { matchRow, matchText } from "./match_row.js";
 import { PagedList } from "./paged.js";
+import { tournamentRow } from "./view_tournament.js";
 import { Gallery } from "./thumbnail.js";
 
 const LIVE = 30;
@@ -22,6 +23,10 @@ export class LobbyView {
       title: "Matches", path: "/v1/matches?limit=20", member: "matches",
       row: matchRow, text: matchText, empty: "No match yet.",
     });
+    this.tournaments = new PagedList({
+      title: "Tournaments", path: "/v1/tournaments?limit=20", member: "tournaments",
+      row: tournamentRow, text: (event) => `${event.name} ${event.entrants.join(" ")} ${event.status}`, empty: "No tournament yet.",
+    });
     this.agents = new PagedList({
       title: "Agents", path: "/v1/agents?limit=50", member: "agents",
       row: (agent) => el("a", { href: `#/agents/${agent.id}` }, agent.name),
@@ -31,7 +36,8 @@ export class LobbyView {
     this.element = el("div", { class: "lobby" },
       el("h1", {}, "Lobby"),
       el("section", { "aria-label": "Live games" }, el("h2", {}, "Live"), this.none, this.gallery.element),
-      el("div", { class: "lists" }, this.next.element, this.matches.element, this.agents.element),
+      el("div", { class: "lists" }, this.next.element, this.matches.element,
+        this.tournaments.element, this.agents.element),
       el("section", { class: "drop", "aria-label": "Record file" },
         el("label", { for: "record-file" }, "Look at a record: drop the file anywhere on this page, or choose it"), this.file));
     /** @type {string[]} */
@@ -41,7 +47,7 @@ export class LobbyView {
   }
 
   async open() {
-    await Promise.all([this.next.load(), this.matches.load(), this.agents.load()]);
+    await Promise.all([this.next.load(), this.matches.load(), this.tournaments.load(), this.agents.load()]);
     while (!this.closed) {
       await this.refresh();
       await new Promise((go) => setTimeout(go, AGAIN));
@@ -66,24 +72,4 @@ export class LobbyView {
     this.stop();
     this.gallery.close();
   }
-}
-
-/** One match: its terms and its games. */
-export class MatchView {
-  constructor() {
-    this.element = el("article", {}, el("p", {}, "Loading …"));
-  }
-
-  /** @param {string} id */
-  async open(id) {
-    const [{ gameRow }, match] = await Promise.all([import("./match_row.js"), get(`/v1/matches/${encodeURIComponent(id)}`)]);
-    const noise = match.noise.level === null ? "not told" : match.noise.level;
-    fill(this.element,
-      el("h1", {}, `${match.players[0]} – ${match.players[1]}`),
-      el("p", {}, `${match.status}, score ${match.score[0]} : ${match.score[1]}, noise ${noise}, ${match.clock.seconds} s each and game`),
-      el("p", {}, match.agents.map((agent, seat) => [el("a", { href: `#/agents/${agent}` }, match.players[seat]), " "]).flat()),
-      el("ul", { class: "rows" }, match.played.map((game) => el("li", {}, gameRow(match, game)))));
-  }
-
-  close() {}
 }

@@ -1,6 +1,6 @@
 /** Play: sign in, find an opponent, and take turns until the match is over. */
 
-import { ProblemError, call, command, get, identity, newKey, signOut, token } from "./api.js";
+import { ProblemError, call, command, get, identity, newKey, newSeed, signOut, token } from "./api.js";
 import { Aiming } from "./aiming.js";
 import { announce, el, fill, labelled } from "./dom.js";
 import { signInPanel } from "./sign_in.js";
@@ -91,12 +91,13 @@ export class PlayView {
     const terms = { agents: [identity().id, opponent], games: 1, noise: { level: Number(this.noise.value), told: true }, clock: { seconds: SECONDS } };
     await this.attempt(async () => {
       const match = await command("/v1/matches", terms);
+      await command(`/v1/matches/${match.id}/seed`, { seed: newSeed() }).catch(() => null);
       this.enter(match.id);
     });
   }
 
   async accept(match) {
-    await this.attempt(async () => this.enter((await command(`/v1/matches/${match}/accept`)).id));
+    await this.attempt(async () => this.enter((await command(`/v1/matches/${match}/accept`, { client_seed: newSeed() })).id));
   }
 
   async attempt(act) {

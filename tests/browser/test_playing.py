@@ -14,8 +14,6 @@ from referee.wire import View
 FRAME = 0.11
 """Width of the frame drawn around the cushion noses, m."""
 PATIENCE = 60_000
-HAND_BREAKS = "3"
-"""Repeated, a match seed that lets seat 0 break."""
 
 
 class Hand:
@@ -86,10 +84,10 @@ def challenge(hand: Hand) -> tuple[Match, int]:
     return Match(hand.server, view, tokens), seat
 
 
-def seated(hand: Hand, seed: str) -> tuple[Match, int]:
-    """A match that is the same every time; the hand has seat 0, the other seat 1."""
+def seated(hand: Hand) -> tuple[Match, int]:
+    """A match that is the same every time; the hand has seat 0 and breaks, the other has seat 1."""
     other = hand.server.register()
-    request = {"agents": [hand.id, other["agent"]["id"]], "seed": seed * 64, "noise": {"level": 0.0}}
+    request = {"agents": [hand.id, other["agent"]["id"]], "seed": "d" * 64, "first_breaker": 0, "noise": {"level": 0.0}}
     made = hand.server.send("POST", "/v1/matches", json=request | {"clock": {"seconds": 3600}})
     assert made.status_code == 201, made.text
     return Match(hand.server, made.json(), [hand.token, other["token"]]), 1
@@ -121,7 +119,7 @@ def wait_for_version(hand: Hand, match: Match, view: View) -> None:
 
 def test_a_whole_game_is_played_by_hand(human):
     """From the break to the result, every stroke by the page's controls; the page finds the match that waits."""
-    match, other = seated(human, "d")
+    match, other = seated(human)
     human.page.reload()
     human.page.get_by_role("heading", level=1).filter(has_text="–").wait_for()
     assert play_out(human, match, other, 400)
@@ -149,7 +147,7 @@ def test_a_challenge_by_name_is_accepted_and_conceded(human):
 
 def test_the_cue_ball_is_dragged_and_the_cue_aimed_by_mouse_and_keys(human):
     """The break by pointer: an illegal place is shown as one; a drag beside the ball aims; arrows turn and speed up."""
-    match, _ = seated(human, HAND_BREAKS)
+    match, _ = seated(human)
     page = human.page
     page.reload()
     turn = page.get_by_role("region", name="Your turn")

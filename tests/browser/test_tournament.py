@@ -1,0 +1,42 @@
+"""A tournament on the page: in the lobby, its standings and ratings, and from there down to a game."""
+
+from support.play_along import Match, next_turn
+
+
+def test_a_tournament_is_followed_from_the_lobby_to_a_game(page, server):
+    players = {name: server.register(f"cup {name}") for name in ("ann", "bob", "cat")}
+    terms = {"name": "Cup <b>of</b> names", "entrants": list(players), "pairs": 1, "seed": 5}
+    agents = {name: made["agent"]["id"] for name, made in players.items()}
+    made = server.send("POST", "/v1/tournaments", json={"terms": terms, "agents": agents})
+    assert made.status_code == 201, made.text
+    event = made.json()["id"]
+    assert server.send("POST", f"/v1/tournaments/{event}/start").status_code == 200
+    while running := [one for one in read(server, event)["played"] if one["status"] == "running"]:
+        concede(server, running[0], players)
+    page.goto(server.url)
+    page.get_by_role("link", name="Cup <b>of</b> names").click()
+    rows = page.get_by_role("table", name="Standings").get_by_role("row")
+    rows.nth(3).wait_for()
+    standings = server.http.get(f"/v1/tournaments/{event}/standings").json()
+    shown = [rows.nth(place).get_by_role("rowheader").inner_text() for place in (1, 2, 3)]
+    assert shown == [one["name"] for one in standings["standings"]]
+    assert [one["games"] for one in standings["ratings"]] == [4, 4, 4]
+    label = page.get_by_role("img", name="Ratings in Elo points").get_attribute("aria-label")
+    assert all(f"{one['name']} {round(one['elo'])}" in label for one in standings["ratings"])
+    page.get_by_role("link", name="–").first.click()
+    page.get_by_role("link", name="Game 1").click()
+    page.locator(".result", has_text="wins: concession").wait_for()
+
+
+def read(server, event: str) -> dict:
+    return dict(server.http.get(f"/v1/tournaments/{event}").json())
+
+
+def concede(server, game: dict, players: dict) -> None:
+    view = server.http.get(f"/v1/matches/{game['match']}").json()
+    match = Match(server, view, [players[name]["token"] for name in game["players"]])
+    seat, turn = next_turn(match)
+    headers = {"If-Match": f'"{turn.version}"'}
+    path = f"/v1/games/{turn.game}/decisions"
+    answer = server.send("POST", path, match.tokens[seat], json={"decision": "concede"}, headers=headers)
+    assert answer.status_code == 200, answer.text
