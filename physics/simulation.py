@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.constants import N_BALLS
+from physics.constants import N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
 from physics.facts import FACTS_DTYPE, Facts
@@ -177,4 +177,8 @@ def checked_positions(table: Table, state: TableState) -> Floats:
     """(1, 32) positions of a state whose balls all lie inside this table's cushion lines and outside its mouths."""
     if not isinstance(state, TableState):
         raise InvalidState("state", state, "must be a physics.TableState")
-    return state.valid_on(table).positions.reshape(1, -1)
+    flat = state.positions.reshape(1, -1)
+    if not state.is_known_on(table):
+        bad = kernels().first_bad_row(parameters(table), flat, 0.0, PLACEMENT_TOLERANCE, 0, 1)[0] >= 0
+        state.valid_on(table, known=not bad)  # which has the words
+    return flat

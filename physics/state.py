@@ -53,19 +53,25 @@ class TableState:
         state._valid_on = None
         return state
 
-    def valid_on(self, table: Table) -> Self:
+    def is_known_on(self, table: Table) -> bool:
+        """Whether ``valid_on`` was asked about this table last, and said yes."""
+        return self._valid_on is table
+
+    def valid_on(self, table: Table, known: bool = False) -> Self:
         """This state, if every ball lies inside the table's cushion lines and outside its pocket mouths.
+
+        ``known``: the caller has found that they do.
 
         Raises:
             InvalidState: naming the first ball that does not.
         """
-        if self._valid_on is not table:
+        if not known and not self.is_known_on(table):
             for ball in self.balls:
                 x, y = self._positions[ball].tolist()
                 if not table.contains(x, y):
                     allowed = "must lie inside the cushion lines and outside the pocket mouths"
                     raise InvalidState(f"positions[{ball}]", (x, y), allowed)
-            self._valid_on = table
+        self._valid_on = table
         return self
 
     @property

@@ -8,8 +8,11 @@ Every array is C-contiguous and two-dimensional, one shot a row: ``p`` (1, P_SIZ
 array made in here would be released after its last use by name, while kernels still address it.
 """
 
+from typing import Any
+
 import numba
 import numpy as np
+from numba import types
 
 from physics.kernels.advance import advance
 from physics.kernels.compiling import kernel, load, load_integer, row, small_kernel, store
@@ -45,8 +48,21 @@ from physics.kernels.start import place, put_away, restore
 from physics.kernels.strike import MILLIMETRE, direction, lowest_elevation, obstacle, unplayable
 from physics.kernels.tolerances import TOUCH
 
-entry = numba.njit(error_model="numpy", nogil=True, cache=bool(numba.config.CACHE_DIR))
-"""Compiled for the arrays it is called with; kept where ``physics.engine`` says, if anywhere."""
+READ = types.Array(types.float64, 2, "C", readonly=True)
+WRITTEN = types.Array(types.float64, 2, "C")
+INTEGERS, FACTS = types.Array(types.int64, 2, "C"), types.Array(types.int32, 2, "C")
+POCKETS, STATUS = types.Array(types.int8, 2, "C"), types.Array(types.int8, 1, "C")
+FLOAT, INTEGER, NONE = types.float64, types.int64, types.void
+
+
+def entry(result: Any, *arguments: Any) -> Any:
+    """Decorator: compiled when loaded, for these types alone, and kept where ``physics.engine`` says, if anywhere.
+
+    What a kernel only reads may be a read-only array or another: both are taken as they are.
+    """
+    kept = bool(numba.config.CACHE_DIR)
+    return numba.njit(result(*arguments), error_model="numpy", nogil=True, cache=kept)
+
 
 NUDGES, NUDGE = 16, 1.0 - 2.0**-52
 """How often, and by what factor, a ball that stopped on a mouth line is drawn towards the centre of the table."""
@@ -90,7 +106,12 @@ def collect(p, w, k, start, stride, final):
         store(final, 2 * i + 1, y if on_table else np.nan)
 
 
-@entry
+@entry(
+    NONE,
+    *(READ, WRITTEN, INTEGERS, READ, READ),
+    *(WRITTEN, POCKETS, STATUS, FACTS, WRITTEN, WRITTEN),
+    *(INTEGER, INTEGERS, INTEGER, INTEGER),
+)
 def simulate_rows(
     p, w, k, states, shots, final, pockets, status, facts, facts_float, trace, rows, counters, first, last
 ):
@@ -133,7 +154,7 @@ def take_state(p, w, k, memory, at, i, time):
         begin(p, w, k, i, motion)
 
 
-@entry
+@entry(NONE, READ, WRITTEN, INTEGERS, READ, READ, INTEGER, FLOAT, WRITTEN)
 def state_at(p, w, k, states, trace, rows, time, out):
     """States of all balls at ``time``, from the states at the start and the trace; (1, 128), from the centre."""
     table, floats, integers, events = row(p, 0), row(w, 0), row(k, 0), row(trace, 0)
@@ -155,7 +176,7 @@ def state_at(p, w, k, states, trace, rows, time, out):
         write_state(floats, integers, i, row(out, 0), i * STATE_WIDTH)
 
 
-@entry
+@entry(types.UniTuple(INTEGER, 2), READ, WRITTEN, INTEGERS, READ, READ)
 def check_shot(p, w, k, positions, shot):
     """(status, obstacle) of a shot: 0 and -1 when it can be played."""
     table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
@@ -167,7 +188,7 @@ def check_shot(p, w, k, positions, shot):
     return status, obstacle(table, floats, aim, a, b) if status == 1 else -1
 
 
-@entry
+@entry(FLOAT, READ, WRITTEN, INTEGERS, READ, FLOAT, FLOAT, FLOAT)
 def elevation_needed(p, w, k, positions, phi, a, b):
     """Smallest free elevation in deg, NaN if none; a and b in mm, on the ball."""
     table, floats, integers = row(p, 0), row(w, 0), row(k, 0)
@@ -175,13 +196,13 @@ def elevation_needed(p, w, k, positions, phi, a, b):
     return lowest_elevation(table, floats, phi, a * MILLIMETRE, b * MILLIMETRE)
 
 
-@entry
+@entry(FLOAT, FLOAT, FLOAT, FLOAT, FLOAT, FLOAT, FLOAT, FLOAT, FLOAT)
 def time_of_contact(cx, cy, bx, by, ax, ay, t_max, distance):
     """Earliest contact in [0, t_max], NaN if none: the loop's solver."""
     return contact(cx, cy, bx, by, ax, ay, t_max, t_max, distance)
 
 
-@entry
+@entry(types.UniTuple(INTEGER, 3), READ, READ, FLOAT, FLOAT, INTEGER, INTEGER)
 def first_bad_row(p, positions, least_squared, slack, first, last):
     """(row, ball, other) of the first state with a bad place or an overlap (then ``other`` >= 0); (-1, -1, -1).
 
