@@ -88,27 +88,27 @@ def play_stroke(
     Raises:
         Refused: the action is not allowed, with all reasons.
     """
-    action = _without_negative_zeros(action)
+    action = without_negative_zeros(action)
     refusals = rules.check(game, action)
     if refusals:
         raise Refused(refusals)
     if action.shot is None:
         ruling = rules.apply(game, action, None, None)
-        return Stroke(game.turn, None, action, game.state, None, None, ruling, _racked(rules, ruling, game, seeds))
+        return Stroke(game.turn, None, action, game.state, None, None, ruling, racked(rules, ruling, game, seeds))
     before = start_state(game, action)
     shot = noise.perturb(action.shot, seeds.noise_seed, game.stroke)
     result = simulate(rules.table, before, shot, trace=trace)
     ruling = rules.apply(game, action, result.facts, result.final)
-    after = _racked(rules, ruling, game, seeds)
+    after = racked(rules, ruling, game, seeds)
     return Stroke(game.turn, game.stroke, action, before, shot, result, ruling, after)
 
 
-def _racked(rules: EightBall, ruling: Ruling, before: Game, seeds: GameSeeds) -> Game:
+def racked(rules: EightBall, ruling: Ruling, before: Game, seeds: GameSeeds) -> Game:
     """The game after a ruling, with new balls if it asks for them: the next rack of this game."""
     return rules.rerack(ruling.game, seeds.rack(before.rack + 1)) if ruling.rerack else ruling.game
 
 
-def _without_negative_zeros(action: Action) -> Action:
+def without_negative_zeros(action: Action) -> Action:
     """The same action with 0.0 for -0.0, which canonical JSON cannot tell apart: records must be exact."""
     if action.shot is None:
         return action

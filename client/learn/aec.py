@@ -1,0 +1,95 @@
+"""The game of both players, as a PettingZoo AEC environment."""
+
+from typing import Any, Final
+
+import numpy as np
+from gymnasium.spaces import Box, Space
+from pettingzoo import AECEnv
+
+from client import notation
+from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe
+from client.learn.course import Course, referee_of
+from physics import Table
+from referee import Game, NoiseModel
+
+SEATS: Final = ("seat_0", "seat_1")
+
+
+class EightBallAEC(AECEnv[str, Vector, Vector | None]):
+    """8-ball between `seat_0` and `seat_1`: observations of `observe`, actions of `act`, 1 for a win and -1 for a loss.
+
+    Args:
+        noise: level, 0 to 5; 1 is the Olympiad's.
+        table: the Olympiad's unless given.
+        start: where every game begins instead of a break.
+        render_mode: `ansi` or None.
+
+    Raises:
+        ValueError: a level of noise, a start or a render mode that is none.
+    """
+
+    metadata: dict[str, Any] = {"name": "eight_ball_v0", "render_modes": ["ansi"], "is_parallelizable": False}  # noqa: RUF012
+
+    def __init__(
+        self,
+        noise: float = 1.0,
+        table: Table | None = None,
+        start: Game | None = None,
+        render_mode: str | None = None,
+    ) -> None:
+        super().__init__()
+        if render_mode not in (None, "ansi"):
+            raise ValueError(f"render_mode is {render_mode!r}; it must be 'ansi' or None")
+        self._rules, self._noise = referee_of(table), NoiseModel(noise)
+        self._start = None if start is None else self._rules.begin_from(start)
+        self._chance = np.random.default_rng()
+        self.render_mode = render_mode
+        self.possible_agents = list(SEATS)
+        self.agents: list[str] = []
+        self.observation_spaces = {seat: Box(0.0, 1.0, (OBSERVATION_SIZE,), np.float32) for seat in SEATS}
+        self.action_spaces = {seat: Box(-1.0, 1.0, (ACTION_SIZE,), np.float32) for seat in SEATS}
+
+    def observation_space(self, agent: str) -> Space[Any]:
+        """Of either seat."""
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent: str) -> Space[Any]:
+        """Of either seat."""
+        return self.action_spaces[agent]
+
+    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
+        """Begin a new game; the seed fixes it and those after it."""
+        if seed is not None:
+            self._chance = np.random.default_rng(seed)
+        self._course = Course.begin(self._rules, self._noise, self._chance, self._start)
+        self.agents = list(SEATS)
+        self.rewards = dict.fromkeys(SEATS, 0.0)
+        self._cumulative_rewards = dict.fromkeys(SEATS, 0.0)
+        self.terminations = dict.fromkeys(SEATS, False)
+        self.truncations = dict.fromkeys(SEATS, False)
+        self.infos: dict[str, dict[str, Any]] = {seat: {} for seat in SEATS}
+        self.agent_selection = SEATS[self._course.game.turn]
+
+    def observe(self, agent: str) -> Vector:
+        """The game as this seat sees it."""
+        return observe(self._rules.table, self._course.game, SEATS.index(agent))
+
+    def step(self, action: Vector | None) -> None:
+        """Play an action of the seat in turn."""
+        if self.terminations[self.agent_selection]:
+            self._was_dead_step(None)
+            return
+        assert action is not None
+        self._cumulative_rewards[self.agent_selection] = 0.0
+        self._course.play(act(self._rules.table, self._course.game, action))
+        self.rewards = {seat: self._course.reward(number) for number, seat in enumerate(SEATS)}
+        self.terminations = dict.fromkeys(SEATS, self._course.game.is_over)
+        self.agent_selection = SEATS[self._course.game.turn]
+        self._accumulate_rewards()
+
+    def render(self) -> str | None:
+        """The position in one line, in mode `ansi`."""
+        return notation.write(self._course.game.state) if self.render_mode == "ansi" else None
+
+    def close(self) -> None:
+        """Nothing is held."""
