@@ -14,6 +14,7 @@ BENCHMARKS = {
     "event_statistics": "coverage of the intervals of scores and ratings, error rates of the sequential test, by lot",
     "value": "weights of the value function behind the luck report, fitted to games of equal players",
     "luck": "the luck report: is the corrected score unbiased, and how much variance does it save?",
+    "learning": "the learning environments: steps a second, one game at a time and many at once",
     "agents": "the shipped greedy against random: games won, called balls made, seconds a stroke",
     "search": "the shipped search in pairs of games against greedy and against itself without its parts",
     "search_habits": "what typically happens in games of search: the constants behind its values",
