@@ -1,7 +1,7 @@
 """An event as it stands: terms, results, withdrawals. Everything else is computed from these three."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
@@ -58,9 +58,7 @@ class Event:
             InvalidResult: a result belongs to no pair of the event.
         """
         plan = planner(self.spec.format)(self.spec, self.games, self.withdrawn)
-        known = {pair.id: pair for pair in plan.pairs}
-        for result in self.results:
-            self._check_known(result, known)
+        self._check_known(self.results, {pair.id: pair for pair in plan.pairs})
         return plan
 
     @property
@@ -128,7 +126,11 @@ class Event:
 
     def with_results(self, *results: GameResult) -> Self:
         """The event with more results."""
-        return replace(self, results=(*self.results, *results))
+        event = replace(self, results=(*self.results, *results))
+        if self._all_planned() and "plan" in self.__dict__:  # it cannot change: not made again for every game
+            self._check_known(results, self._pairs)
+            event.__dict__["plan"], event.__dict__["_pairs"] = self.plan, self._pairs
+        return event
 
     def voided(self, pair: str, leg: int) -> Self:
         """The event with a game's result void: the game is due again, with fresh noise.
@@ -164,14 +166,17 @@ class Event:
 
     def _first_free_round(self) -> int:
         """The first round after all those in which something has been played."""
-        rounds = {pair.id: pair.round for pair in self.plan.pairs}
-        return max((rounds[result.pair] + 1 for result in self.results), default=0)
+        return max((self._pairs[result.pair].round + 1 for result in self.results), default=0)
 
     def _drawn_from(self, pair: str) -> bool:
         """Whether a result exists in a later round that was drawn from this one's results."""
-        rounds = {each.id: each.round for each in self.plan.pairs}
-        later = any(rounds[result.pair] > rounds[pair] for result in self.results)
+        later = any(self._pairs[result.pair].round > self._pairs[pair].round for result in self.results)
         return later and not self._all_planned()
+
+    @cached_property
+    def _pairs(self) -> dict[str, Pair]:
+        """The pairs of the plan by id."""
+        return {pair.id: pair for pair in self.plan.pairs}
 
     def _attempts(self, pair: Pair, leg: int) -> int:
         """How often a game has been played in vain."""
@@ -195,12 +200,13 @@ class Event:
             if one.counts:
                 seen.add((one.pair, one.leg))
 
-    def _check_known(self, result: GameResult, known: Mapping[str, Pair]) -> None:
-        pair = known.get(result.pair)
-        if pair is None:
-            _check.fail("pair", result.pair, "a pair of this event")
-        if result.players != pair.players or result.breaker != pair.breaker(result.leg):
-            _check.fail("players", (result.players, result.breaker), f"{pair.players}, seat {result.leg} breaking")
+    def _check_known(self, results: Iterable[GameResult], pairs: Mapping[str, Pair]) -> None:
+        for result in results:
+            pair = pairs.get(result.pair)
+            if pair is None:
+                _check.fail("pair", result.pair, "a pair of this event")
+            if result.players != pair.players or result.breaker != pair.breaker(result.leg):
+                _check.fail("players", (result.players, result.breaker), f"{pair.players}, seat {result.leg} breaking")
 
 
 def forfeit(due: Due, loser: str, reason: EndReason = EndReason.FORFEIT) -> GameResult:

@@ -15,6 +15,10 @@ from tournament.presets import expand
 from tournament.sprt_terms import SprtTerms
 
 MOST_ENTRANTS, MOST_PAIRS, MOST_ROUNDS = 1000, 100_000, 1000
+MOST_IN_SWISS = 256
+"""Entrants of a Swiss: pairing a round of so many takes one to three seconds."""
+MOST_IN_EVENT = 250_000
+"""Pairs of games in an event: they are planned in memory."""
 MOST_SECONDS = 86_400.0
 MOST_SHOTS = 10**9
 LONGEST_AGENT = 4096
@@ -112,7 +116,7 @@ class Spec:
 
     Attributes:
         name: of the event.
-        entrants: 2 to 1000, with different names.
+        entrants: 2 to 1000 with different names, at most 256 in a Swiss.
         format: who meets whom.
         pairs: pairs of games in a meeting. The two games of a pair have the same racks and levels, the break
             swapped, and noise of their own.
@@ -299,9 +303,25 @@ def _check_together(spec: Spec) -> None:
     swiss = spec.format is Format.SWISS
     if swiss and spec.rounds is None:
         _check.fail("rounds", spec.rounds, "how many rounds a Swiss has")
+    if swiss and len(spec.entrants) > MOST_IN_SWISS:
+        _check.fail("entrants", f"{len(spec.entrants)} entrants", f"at most {MOST_IN_SWISS} in a Swiss")
     if not swiss and spec.rounds is not None:
         _check.fail("rounds", spec.rounds, f"nothing: a {spec.format} has the rounds it needs")
     if spec.format is Format.GAUNTLET and spec.challengers >= len(spec.entrants):
         _check.fail("challengers", spec.challengers, f"fewer than the {len(spec.entrants)} entrants")
+    most = _most_meetings(spec) * (spec.pairs + (spec.extra_pairs if spec.format is Format.KNOCKOUT else 0))
+    if most > MOST_IN_EVENT:
+        _check.fail("pairs", spec.pairs, f"at most {MOST_IN_EVENT} pairs of games in an event; these terms make {most}")
     if spec.sprt is not None and (len(spec.entrants) != 2 or spec.format is Format.KNOCKOUT):
         _check.fail("sprt", f"{len(spec.entrants)} entrants, {spec.format}", "two entrants, and no knockout")
+
+
+def _most_meetings(spec: Spec) -> int:
+    """Meetings of the whole event."""
+    n = len(spec.entrants)
+    return {
+        Format.ROUND_ROBIN: n * (n - 1) // 2,
+        Format.GAUNTLET: spec.challengers * (n - spec.challengers),
+        Format.SWISS: (spec.rounds or 0) * (n // 2),
+        Format.KNOCKOUT: n - 1,
+    }[spec.format]

@@ -79,6 +79,19 @@ def test_a_round_that_another_was_drawn_from_stands():
         event.voided("r0-m0-p0", 0)
 
 
+def test_a_plan_that_cannot_change_is_made_once():
+    """Else an event of many games would plan them all again after each of them."""
+    event = Event(spec_of(4))
+    plan = event.plan
+    event = event.with_results(result_of(event.due[0], 0))
+    assert event.plan is plan
+    assert len(event.due) == 11
+    stray = result_of(Event(spec_of(8)).due[-1], 0)
+    with pytest.raises(InvalidResult, match="a pair of this event"):
+        event.with_results(stray)
+    assert event.voided("r0-m0-p0", 0).plan == plan
+
+
 def test_only_a_game_with_a_result_can_be_void():
     with pytest.raises(InvalidResult, match="a game with a result"):
         Event(spec_of(2)).voided("r0-m0-p0", 0)

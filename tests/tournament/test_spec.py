@@ -95,6 +95,19 @@ def test_published_terms_tell_no_secret():
     assert "seed" not in spec.published()
 
 
+def test_a_swiss_has_at_most_256_entrants():
+    spec_of(256, format="swiss", rounds=1)
+    with pytest.raises(InvalidSpec, match="at most 256 in a Swiss"):
+        spec_of(257, format="swiss", rounds=1)
+
+
+@pytest.mark.parametrize("terms", [{}, {"format": "gauntlet", "challengers": 50}, {"format": "knockout"}])
+def test_an_event_has_at_most_250000_pairs(terms):
+    """The pairs of an event are planned in memory: whoever may send terms must not fill it."""
+    with pytest.raises(InvalidSpec, match="at most 250000 pairs of games in an event"):
+        spec_of(100, pairs=10_000, **terms)
+
+
 def test_an_sprt_is_no_knockout():
     with pytest.raises(InvalidSpec, match="no knockout"):
         spec_of(2, format="knockout", sprt=SprtTerms())
