@@ -1,7 +1,7 @@
 """`pooliad tournament`: run events, take them up again, decide about them while they run."""
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     from client.arena.remote import RemoteRunner
     from client.arena.runner import Observer, Runner
     from client.arena.terms import Terms
+    from tournament import GameResult
     from tournament.ledger import Ledger
+    from tournament.luck import GameLuck
 
 Event = Annotated[Path, typer.Argument(help="Directory of the event.")]
 Executor = Annotated[str, typer.Option(help="Where games are played: processes, inline, or dask://HOST:PORT.")]
@@ -95,7 +97,14 @@ def status(directory: Event, as_json: Json = False) -> None:
     _report(event, _ledger(event), as_json)
 
 
-def report(directory: Event, as_json: Json = False) -> None:
+def report(
+    directory: Event,
+    luck: Annotated[
+        bool,
+        typer.Option("--luck", help="Simulate strokes with fresh noise, seconds a game, to tell luck."),
+    ] = False,
+    as_json: Json = False,
+) -> None:
     """Write an event's report, finished or not: a page, JSON, and tables for analysis, into its directory."""
     import json
 
@@ -104,7 +113,7 @@ def report(directory: Event, as_json: Json = False) -> None:
 
     event = _opened(directory)
     played = _ledger(event).event
-    data = event_report(played)
+    data = event_report(played, _luck(directory, played.counted) if luck else None)
     texts = {
         "report.html": page(data),
         "report.json": json.dumps(data, ensure_ascii=False, allow_nan=False, indent=2) + "\n",
@@ -117,6 +126,14 @@ def report(directory: Event, as_json: Json = False) -> None:
         emit(data)
     else:
         say(f"{', '.join(texts)} in {directory}; open {directory / 'report.html'} in a browser")
+
+
+def _luck(directory: Path, results: Sequence["GameResult"]) -> "dict[tuple[str, int], GameLuck]":
+    """The luck of the games whose records lie in the directory."""
+    from tournament.luck import game_luck
+
+    files = {(one.pair, one.leg): directory / one.record for one in results if one.record}
+    return {key: game_luck(path) for key, path in files.items() if path.is_file()}
 
 
 def pause(directory: Event, reason: Reason = "") -> None:

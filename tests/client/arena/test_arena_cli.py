@@ -38,6 +38,11 @@ def test_an_event_from_its_file_to_its_report(cli, tmp_path):
     assert json.loads(cli("status", "cup", "--json").stdout)["standings"] == played["standings"]
     report = json.loads(cli("report", "cup", "--json").stdout)
     assert report["standings"] == played["standings"]
+    assert report["luck"] == []
+    (tmp_path / "cup" / "games" / "r0-m0-p0-g1.jsonl").unlink()  # one game is enough here
+    lucky = json.loads(cli("report", "cup", "--luck", "--json").stdout)["luck"]
+    assert [row["games"] for row in lucky] == [1, 1]
+    assert sum(row["games"] * row["luck"] for row in lucky) == pytest.approx(0.0, abs=1e-9)
     assert "<html" in (tmp_path / "cup" / "report.html").read_text()
     assert len((tmp_path / "cup" / "results.jsonl").read_text().splitlines()) == 2
     assert "Cup" in cli("status", "cup").stdout
