@@ -237,6 +237,24 @@ def test_shots_left_are_shared_out():
             break
 
 
+def test_a_budget_of_shots_and_seconds_is_spent_by_either():
+    """A simulation budget does not make it forget the clock, nor the clock the budget."""
+    seconds, shots = allowance(Options(seconds=2.0), 10.0, 1_000_000)
+    assert (seconds, shots) == (pytest.approx(0.57), 60_000)
+    clock = Ticking()
+    budget = Budget(Pace(), shots, seconds, clock)
+    clock.now = 0.6
+    assert budget.spent > 1.0
+    other = Budget(Pace(), shots, seconds, clock)
+    other.charge(60_000)
+    assert other.spent == 1.0
+
+
+def test_a_number_of_shots_needs_no_clock():
+    assert allowance(Options(shots=500), None, None) == (math.inf, 500)
+    assert allowance(Options(shots=500), None, 1_000) == (math.inf, 60)
+
+
 def test_a_budget_of_seconds_learns_how_far_it_goes():
     pace, clock = Pace(), Ticking()
     for _ in range(50):

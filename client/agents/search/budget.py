@@ -1,16 +1,15 @@
 """How much may be simulated for one stroke: a fixed number of shots, or what fits into some seconds."""
 
+import math
 import time
 from collections.abc import Callable
 
-from client.agents.search.options import LEAST_SECONDS, Options
+from client.agents.search.options import LEAST_SECONDS, MOST_SHOTS, Options
 
 GUESS = 30_000.0
 """Simulated shots a second, all work around them included, before anything was measured."""
 SMOOTHING = 0.3
 """Weight of the latest stroke in the measured speed."""
-
-
 SHARE = 0.06
 """Of what is left on the clock, or in the simulation budget, for one stroke: a game seldom takes a player more than
 sixteen strokes, and however many it takes something is always left."""
@@ -19,19 +18,18 @@ RESERVE = 0.5
 
 
 def allowance(options: Options, seconds_left: float | None, shots_left: int | None) -> tuple[float, int]:
-    """Seconds and shots for one turn; 0 shots stand for as many as fit into the seconds.
+    """Seconds (infinite where only shots count) and shots (0 for any number) for one turn.
 
     Args:
         seconds_left: on the player's clock; None without one.
         shots_left: in the simulation budget of the game; None without one.
     """
-    seconds, shots = options.seconds, int(options.shots)
+    seconds, shots = math.inf if options.shots else options.seconds, int(options.shots)
     if seconds_left is not None:
-        fair = max(LEAST_SECONDS, SHARE * (seconds_left - RESERVE))
-        seconds, shots = min(seconds, fair), 0 if fair < options.seconds else shots
+        seconds = min(seconds, max(LEAST_SECONDS, SHARE * (seconds_left - RESERVE)))
     if shots_left is not None:
-        fair_shots = max(1, int(SHARE * shots_left))
-        shots = min(shots, fair_shots) if shots else fair_shots
+        fair = max(1, int(SHARE * shots_left))
+        shots = min(shots, fair) if shots else fair
     return seconds, shots
 
 
@@ -48,36 +46,36 @@ class Pace:
 
 
 class Budget:
-    """What one stroke may cost.
+    """What one stroke may cost: shots, seconds, or both, whichever is spent first.
 
     Args:
-        shots: how many may be simulated; the choice then depends on nothing else. 0: as many as the seconds allow.
-        seconds: or the time to think; `clock` (s) says how much of it has passed, `pace` how far it goes.
+        shots: how many may be simulated, 0 for any number. Without seconds, the choice depends on nothing else.
+        seconds: how long it may take, infinity for any time; `clock` (s) says how much of it has passed, `pace` how far
+            it goes.
     """
 
     def __init__(
         self,
         pace: Pace,
         shots: int = 0,
-        seconds: float = 1.0,
+        seconds: float = math.inf,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
-        self._pace, self._seconds, self._clock = pace, seconds, clock
-        self._shots = shots
+        self._pace, self._clock = pace, clock
+        self._shots, self._seconds = shots or math.inf, seconds
         self._started = clock()
         self.simulated = 0
 
     @property
     def total(self) -> int:
         """Shots that may be simulated in all, as far as that is known."""
-        return self._shots or int(self._seconds * self._pace.per_second)
+        return int(min(self._shots, self._seconds * self._pace.per_second, MOST_SHOTS))
 
     @property
     def spent(self) -> float:
         """The share of the budget that is used up; 1 and more when it is gone."""
-        if self._shots:
-            return self.simulated / self._shots
-        return (self._clock() - self._started) / max(1e-9, self._seconds)
+        by_time = (self._clock() - self._started) / self._seconds if self._seconds < math.inf else 0.0
+        return max(by_time, self.simulated / self._shots)
 
     def charge(self, shots: int) -> None:
         """So many shots were simulated."""
@@ -85,5 +83,5 @@ class Budget:
 
     def close(self) -> None:
         """The stroke is chosen: the pace is learnt from it."""
-        if not self._shots:
+        if self._seconds < math.inf:
             self._pace.learn(self.simulated, self._clock() - self._started)

@@ -8,6 +8,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from client.agents.search.evaluate import Evaluator
 from client.agents.search.shots import Floats, Shots, Tables
@@ -27,7 +28,7 @@ AROUND = 7.0
 """Degrees to either side of a kick's reckoned direction that are tried: spin and speed bend it."""
 
 
-def directions(table: Table, position: Floats, targets: np.ndarray, each: int) -> Floats:
+def directions(table: Table, position: Floats, targets: NDArray[np.bool_], each: int) -> Floats:
     """Azimuths (deg) that meet one of the targets: `each` a ball straight, as many off the cushions."""
     cue = position[0]
     balls = position[np.flatnonzero(targets)]
@@ -77,7 +78,7 @@ def sweep(evaluator: Evaluator, tables: Tables, each: int) -> Shots:
     return called(shots, evaluator.simulated(shots), targets) if len(shots) else shots
 
 
-def called(shots: Shots, batch: Batch, targets: np.ndarray) -> Shots:
+def called(shots: Shots, batch: Batch, targets: NDArray[np.bool_]) -> Shots:
     """The strokes, each calling the first of the targets that it pockets; a safety if it pockets none."""
     fell = (batch.facts["pocketed"] != NEVER) & targets[None, :]
     ball = np.where(fell.any(axis=1), fell.argmax(axis=1), SAFETY_CALL)
