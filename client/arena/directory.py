@@ -41,6 +41,7 @@ class EventDirectory:
         for each in (path, directory.games, directory.logs):
             each.mkdir(parents=True, exist_ok=True)
         write_whole(path / TERMS, (json.dumps(terms, indent=2) + "\n").encode())
+        (path / TERMS).chmod(0o600)  # the seed is a secret while the event goes on
         return directory
 
     @classmethod

@@ -7,7 +7,8 @@ from typing import Any
 from client.arena.hosting import Kind
 from client.arena.tasks import play_pair
 from client.arena.terms import Terms
-from tournament import Event, Format, Spec
+from tournament import Event
+from tournament.size import games_of
 
 SAMPLE_SECONDS = 60.0
 """No further sample game is begun after so long."""
@@ -48,18 +49,6 @@ def estimate(terms: Terms, workers: int) -> Estimate:
     rounds = None if mean is None else (least * mean / workers, most * mean / workers)
     longest = None if spec.seconds is None else most * 2.0 * spec.seconds / workers
     return Estimate((least, most), workers, len(times), mean, rounds, longest)
-
-
-def games_of(spec: Spec) -> tuple[int, int]:
-    """How many games an event has: at least, at most."""
-    entrants = len(spec.entrants)
-    if spec.format is Format.SWISS:
-        games = (spec.rounds or 0) * (entrants // 2) * spec.games_in_meeting
-        return games, games
-    if spec.format is Format.KNOCKOUT:
-        return (entrants - 1) * spec.games_in_meeting, (entrants - 1) * (spec.games_in_meeting + 2 * spec.extra_pairs)
-    games = len(Event(spec).due)
-    return (2 if spec.sprt is not None else games), games
 
 
 def sample(terms: Terms) -> list[float]:

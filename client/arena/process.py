@@ -84,6 +84,13 @@ class ProcessSeat:
             with contextlib.suppress(TimeoutError, BrokenPipeError):
                 self._send(self._process, message.model_dump_json().encode() + b"\n", time.monotonic() + 1.0)
 
+    def interrupt(self) -> None:
+        """Kill it, from any thread; whoever is waiting for its answer sees it end."""
+        process = self._process
+        if process is not None:
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(process.pid, signal.SIGKILL)
+
     def close(self) -> None:
         """End it: by the end of its input, and by force if that is not enough."""
         if self._process is not None and self._process.stdin is not None:

@@ -12,7 +12,7 @@ from client.arena.hosting import Hosting, Kind
 from client.arena.process import ProcessSeat
 from client.arena.runner import Observer
 from client.arena.terms import Terms
-from client.errors import ApiError, ConnectionFailed, Forbidden, NameTaken, PooliadError
+from client.errors import ApiError, NameTaken, PooliadError
 from client.http import Pooliad
 from client.retry import Retry
 from referee import Action, SimulationBudget
@@ -26,8 +26,10 @@ from tournament.ledger import Ledger
 PLACE = "server.json"
 """Which event of which server a directory is about, and the entrants' agents there."""
 LOOK_EVERY = 0.5
-POLL = 20.0
-"""Seconds a hosted entrant's long poll waits."""
+POLL = 2.0
+"""Seconds a hosted entrant's long poll waits: so long it may take to leave."""
+PAUSE = 1.0
+"""Seconds between tries of an entrant whose connection fails."""
 ACTS = ("void", "disqualify", "pause", "go_on", "abort")
 """Decisions that the journal repeats."""
 
@@ -120,18 +122,18 @@ class RemoteRunner:
     @contextlib.contextmanager
     def _players(self, server: Pooliad, place: Place) -> Iterator[None]:
         """The hosted entrants at work, each with a token of its own, a thread and a process."""
-        threads = []
-        for name, hosting in self._terms.hosting.items():
-            if hosting.kind is not Kind.REMOTE:
-                token = server.rotate_token(place.agents[name]).token
-                player = _Player(self, name, hosting, token)
-                threads.append(threading.Thread(target=player.play, name=f"entrant {name}"))
+        hosted = {name: each for name, each in self._terms.hosting.items() if each.kind is not Kind.REMOTE}
+        tokens = {name: server.rotate_token(place.agents[name]).token for name in hosted}
+        players = [_Player(self, name, hosted[name], tokens[name]) for name in hosted]
+        threads = [threading.Thread(target=player.play) for player in players]
         for thread in threads:
             thread.start()
         try:
             yield
         finally:
             self._stop.set()
+            for player in players:
+                player.seat.interrupt()
             for thread in threads:
                 thread.join()
 
@@ -174,9 +176,9 @@ class RemoteRunner:
         self._journal.append("game", result=result.to_dict(), match=game.match)
         self._ledger = self._ledger.after(self._journal.new())
 
-    def player_stopped(self) -> bool:
-        """Whether the entrants are to leave."""
-        return self._stop.is_set()
+    def rests(self, seconds: float = 0.0) -> bool:
+        """Whether the entrants are to leave, now or within ``seconds``."""
+        return self._stop.wait(seconds)
 
     def incident(self, name: str, what: str) -> None:
         """Note what went wrong with an entrant."""
@@ -193,7 +195,7 @@ class RemoteRunner:
 
     def lost(self, view: View, reason: str) -> None:
         """Tell the server that a hosted entrant's process crashed, stalled or broke the terms: it loses this game."""
-        if view.seat is None or reason == "time_out":  # the server's own clock has the last word
+        if self._stop.is_set() or view.seat is None or reason == "time_out":  # the server's clock has the last word
             return
         with Pooliad(self._url, self._token) as server, contextlib.suppress(ApiError):
             server.forfeit(view.game, view.seat, reason)  # type: ignore[arg-type]
@@ -205,29 +207,27 @@ class _Player:
     def __init__(self, runner: RemoteRunner, name: str, hosting: Hosting, token: str) -> None:
         self._runner = runner
         self._name = name
-        self._hosting = hosting
         self._token = token
+        self.seat = runner.seat(name, hosting)
         self._game = ""
         self._budget = SimulationBudget()
         self._declared = 0
 
     def play(self) -> None:
-        """Play every turn until the runner stops."""
-        seat = self._runner.seat(self._name, self._hosting)
-        with contextlib.closing(seat), self._runner.connection(self._token) as server:
-            while not self._runner.player_stopped():
+        """Play every turn until the runner stops; whatever goes wrong is noted, and tried again."""
+        with contextlib.closing(self.seat), self._runner.connection(self._token) as server:
+            while not self._runner.rests():
                 try:
-                    self._next(server, seat)
-                except (ConnectionFailed, ApiError) as error:
-                    self._runner.incident(self._name, str(error)[:500])
-                    if isinstance(error, Forbidden):
-                        return
+                    self._next(server, self.seat)
+                except Exception as error:
+                    self._runner.incident(self._name, f"{type(error).__name__}: {error}"[:500])
+                    self._runner.rests(PAUSE)
 
     def _next(self, server: Pooliad, seat: ProcessSeat) -> None:
-        message = server.turns(min(POLL, 2.0))
+        message = server.turns(POLL)
         if isinstance(message, Turn):
             view: View | None = message.view
-            while view is not None and view.my_turn and not self._runner.player_stopped():
+            while view is not None and view.my_turn and not self._runner.rests():
                 view = self._answer(server, seat, view)
         elif isinstance(message, GameOver):
             seat.over(message)

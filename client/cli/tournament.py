@@ -184,9 +184,12 @@ def _ledger(event: "EventDirectory") -> "Ledger":
 
 def _decide(directory: Path, kind: str, **fields: Any) -> None:
     """Write an organiser's decision into the journal, if it can be carried out as the event stands."""
+    from client.arena.remote import PLACE
     from tournament.ledger import Act
 
     event = _opened(directory)
+    if (event.path / PLACE).exists():
+        fail(f"{event.path} is an event at a server: POST /v1/tournaments/ID/… there decides about it", USAGE)
     before = _ledger(event)
     after = before.after([Act(kind, fields)])
     if len(after.refused) > len(before.refused):
@@ -236,9 +239,9 @@ class _Where:
 
 def _play(event: "EventDirectory", terms: "Terms", where: _Where, as_json: bool) -> None:
     """Play until the event is over, paused or interrupted, and say how it stands."""
-    from client.arena.estimate import games_of
     from client.cli.processes import termination_as_exception
     from client.cli.progress import shown
+    from tournament.size import games_of
 
     try:
         with (

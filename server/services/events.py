@@ -73,7 +73,8 @@ def go_on(writing: Writing, tournament_id: str) -> Row[Any]:
     ledger = ledger_of(writing.connection, row)
     begun = any(entry.kind == "go_on" for entry in entries(writing.connection, tournament_id))
     status = "created" if not begun and not ledger.over else ledger.state
-    values: dict[str, Any] = {"status": status}
+    counts = {"games": len(ledger.event.counted), "due": len(ledger.event.due)}
+    values: dict[str, Any] = {"status": status, **counts}
     if status == "running":
         values["started_at"] = row.started_at or writing.now
         _give_out(writing, row, ledger)

@@ -33,7 +33,7 @@ def view(connection: Connection, row: Row[Any]) -> TournamentView:
     ledger = events.ledger_of(connection, row)
     spec, over = ledger.event.spec, row.status not in events.OPEN
     return TournamentView(
-        **_summary(row, ledger),
+        **_summary(row),
         terms=spec.published() | ({"seed": spec.seed} if over else {}),
         agents=row.agents,
         played=tuple(_games(connection, row, ledger)),
@@ -41,9 +41,9 @@ def view(connection: Connection, row: Row[Any]) -> TournamentView:
     )
 
 
-def summary(connection: Connection, row: Row[Any]) -> TournamentSummary:
+def summary(row: Row[Any]) -> TournamentSummary:
     """An event in a list."""
-    return TournamentSummary(**_summary(row, events.ledger_of(connection, row)))
+    return TournamentSummary(**_summary(row))
 
 
 def standings_view(connection: Connection, row: Row[Any]) -> StandingsView:
@@ -56,16 +56,16 @@ def standings_view(connection: Connection, row: Row[Any]) -> StandingsView:
     return StandingsView(tournament=row.id, status=row.status, standings=lines, ratings=ratings, test=test)
 
 
-def _summary(row: Row[Any], ledger: Ledger) -> dict[str, Any]:
-    spec = ledger.event.spec
+def _summary(row: Row[Any]) -> dict[str, Any]:
+    spec = events.spec_of(row)
     return {
         "id": row.id,
         "name": spec.name,
         "status": row.status,
         "format": spec.format.value,
         "entrants": spec.names,
-        "games": len(ledger.event.counted),
-        "due": len(ledger.event.due),
+        "games": row.games,
+        "due": row.due,
         "created_at": date_time(row.created_at),
         "started_at": None if row.started_at is None else date_time(row.started_at),
         "ended_at": None if row.ended_at is None else date_time(row.ended_at),

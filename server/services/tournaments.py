@@ -27,8 +27,11 @@ from server.services.matches import call_off
 from server.store.tables import agents, tournaments
 from tournament import Spec, TournamentError
 from tournament.ledger import Act
+from tournament.size import games_of
 
 SECRET_BYTES: Final = 32
+MOST_GAMES: Final = 10_000
+"""In one event: how it stands is computed from all its results whenever one is added."""
 
 
 def create(context: Context, command: Command) -> Answer:
@@ -87,7 +90,7 @@ def listing(context: Context, status: str | None, cursor: int, limit: int) -> To
         query = query.where(tournaments.c.status == status)
     with context.database.reading() as connection:
         rows = connection.execute(query.offset(cursor).limit(limit + 1)).all()
-        found = tuple(tournament_views.summary(connection, row) for row in rows[:limit])
+        found = tuple(tournament_views.summary(row) for row in rows[:limit])
     return TournamentList(tournaments=found, next_cursor=str(cursor + limit) if len(rows) > limit else None)
 
 
@@ -100,11 +103,13 @@ def _created(writing: Writing, command: Command) -> Answer:
         "status": "created",
         "terms": spec.to_dict(),
         "agents": _agents(writing.connection, spec, request),
+        "games": 0,
+        "due": 0,
         "created_at": writing.now,
     }
     writing.connection.execute(insert(tournaments).values(row))
     events.note(writing, str(row["id"]), "opened", command.caller.id, {})
-    found = tournament_views.view(writing.connection, events.find(writing.connection, str(row["id"])))
+    found = tournament_views.view(writing.connection, events.go_on(writing, str(row["id"])))
     return Answer.of(201, found, location=f"/v1/tournaments/{row['id']}")
 
 
@@ -112,9 +117,13 @@ def _spec(request: TournamentRequest) -> Spec:
     """The terms, with a secret seed unless one was given."""
     terms = {"seed": secrets.token_hex(SECRET_BYTES)} | request.terms
     try:
-        return Spec.from_dict(terms)
+        spec = Spec.from_dict(terms)
     except TournamentError as error:
         raise invalid_field(f"terms.{error.field}", error.value, error.allowed) from error
+    _, games = games_of(spec)
+    if games > MOST_GAMES:
+        raise invalid_field("terms.pairs", spec.pairs, f"at most {MOST_GAMES} games in all; these terms make {games}")
+    return spec
 
 
 def _agents(connection: Connection, spec: Spec, request: TournamentRequest) -> dict[str, str]:

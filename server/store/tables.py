@@ -243,11 +243,14 @@ tournaments = Table(
     Column("status", String(16), nullable=False, index=True),
     Column("terms", JSON, nullable=False),
     Column("agents", JSON, nullable=False),
+    Column("games", Integer, nullable=False),
+    Column("due", Integer, nullable=False),
     Column("created_at", BigInteger, nullable=False),
     Column("started_at", BigInteger),
     Column("ended_at", BigInteger),
 )
-"""`terms`: the whole `tournament.Spec`, its secret seed among them; `agents`: entrant's name to agent id."""
+"""`terms`: the whole `tournament.Spec`, its secret seed among them; `agents`: entrant's name to agent id.
+`games`: counted so far; `due`: certain and not finished. Both follow from the entries, and are here for lists."""
 
 tournament_entries = Table(
     "tournament_entries",
