@@ -22,5 +22,7 @@ BENCHMARKS = {
     "page": "the page with 30 live games: the browser's processor time and its longest frame",
     "search_breaks": "the study behind the break of `search`: random breaks, halved again and again",
     "tournaments": "events of in-process agents: games per second, in one process and with one and two workers",
+    "load": "shots a second over HTTP with 1, 10, 100 and 500 games at once, next to a bare endpoint",
+    "soak": "thousands of games through the SDK and HTTP: time-outs that nothing explains, and their upper bound",
 }
 """Module in this package to one line about it."""
