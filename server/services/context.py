@@ -75,6 +75,10 @@ class Context:
         if writing.woken:
             self.wakeups.notify(writing.woken)
 
+    def clear_until(self, now: int) -> int:
+        """Every request that was complete here before then is done."""
+        return min([now, *(arrived for ours in tuple(self.in_hand.values()) for arrived in tuple(ours))])
+
     def is_in_hand(self, game_id: str, deadline: int) -> bool:
         """Whether a request that came before the deadline is being worked on.
 

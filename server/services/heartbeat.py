@@ -13,12 +13,16 @@ from collections.abc import AsyncIterator
 from sqlalchemy import delete, func, insert, select, update
 from starlette.concurrency import run_in_threadpool
 
+from referee.play import nanoseconds
 from server.services import turn_clock
 from server.services.context import Context, Writing
 from server.services.live import RUNNING, find
 from server.store.tables import games, heartbeats
 
 log = logging.getLogger("pooliad.server.heartbeat")
+
+MISSED_BEATS = 3
+"""A process that missed so many beats is dead; what it had in hand is lost, and its players send it again."""
 
 
 class Heartbeat:
@@ -85,10 +89,22 @@ def beat(context: Context, process: str, *, stopped: bool = False) -> None:
 
 def _beat(writing: Writing, process: str, stopped: bool) -> None:
     this = heartbeats.c.process == process
-    present = sorted(writing.context.presence.here(writing.now))
-    values = {"beat_at": writing.now, "stopped": stopped, "present": present}
+    values = {
+        "beat_at": writing.now,
+        "clear_until": writing.context.clear_until(writing.now),
+        "stopped": stopped,
+        "present": sorted(writing.context.presence.here(writing.now)),
+    }
     if writing.connection.execute(update(heartbeats).where(this).values(values)).rowcount != 1:
         writing.connection.execute(insert(heartbeats).values(process=process, **values))
+
+
+def is_clear(connection: Connection, context: Context, deadline: int) -> bool:
+    """Whether no process that is alive may still be at work on a request that was complete before the deadline."""
+    since = context.time.now() - nanoseconds(MISSED_BEATS * context.settings.heartbeat_period)
+    alive = heartbeats.c.stopped.is_(False) & (heartbeats.c.beat_at > since)
+    behind = select(heartbeats.c.process).where(alive, heartbeats.c.clear_until < deadline).limit(1)
+    return connection.execute(behind).first() is None
 
 
 def _take_up_games(writing: Writing, last: int) -> None:

@@ -11,7 +11,7 @@ from starlette.concurrency import run_in_threadpool
 
 from referee.game import EndReason
 from server.services import games as course
-from server.services import turn_clock
+from server.services import heartbeat, turn_clock
 from server.services.context import Context
 from server.services.live import find
 from server.services.openings import begin_due
@@ -68,6 +68,8 @@ def _flag(context: Context, game_id: str, now: int) -> None:
         live = find(writing.connection, game_id)
         deadline = live.row.deadline
         if deadline is None or deadline > now or context.is_in_hand(game_id, deadline):
+            return
+        if context.database.is_shared and not heartbeat.is_clear(writing.connection, context, deadline):
             return
         # the deadline of a turn that nobody ever fetched may come before its clock runs out
         timed_out = deadline >= turn_clock.running_turn(live).runs_out(live.row.clock_from)

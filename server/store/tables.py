@@ -179,10 +179,12 @@ heartbeats = Table(
     metadata,
     Column("process", Identifier, primary_key=True),
     Column("beat_at", BigInteger, nullable=False),
+    Column("clear_until", BigInteger, nullable=False),
     Column("stopped", Boolean, nullable=False),
     Column("present", JSON, nullable=False),
 )
-"""When each server process was last alive; `stopped`: it left in good order; `present`: the agents that poll it."""
+"""When each server process was last alive; `stopped`: it left in good order; `present`: the agents that poll it.
+`clear_until`: every request that was complete at the process before then is done."""
 
 moves = Table(
     "moves",

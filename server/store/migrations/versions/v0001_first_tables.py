@@ -191,6 +191,7 @@ def upgrade() -> None:
         "heartbeats",
         sa.Column("process", sa.String(length=64), nullable=False),
         sa.Column("beat_at", sa.BigInteger(), nullable=False),
+        sa.Column("clear_until", sa.BigInteger(), nullable=False),
         sa.Column("stopped", sa.Boolean(), nullable=False),
         sa.Column("present", sa.JSON(), nullable=False),
         sa.PrimaryKeyConstraint("process", name=op.f("pk_heartbeats")),
