@@ -2,8 +2,13 @@
 
 import asyncio
 import json
+import math
+import time
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any
+
+IDLE = 2.0
+"""Seconds after which a connection is not used again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,13 +22,17 @@ class Reply:
 class Connection:
     """One connection, kept alive; one request at a time."""
 
-    def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        self._reader, self._writer = reader, writer
+    def __init__(self, port: int) -> None:
+        self._port = port
+        self._used = -math.inf
+        self._writer: asyncio.StreamWriter | None = None
 
-    @classmethod
-    async def open(cls, port: int) -> Self:
-        """Connect to this machine."""
-        return cls(*await asyncio.open_connection("127.0.0.1", port, limit=1 << 22))
+    async def _connect(self) -> None:
+        """Connect to this machine; anew after a pause, for servers end connections that are idle for seconds."""
+        if time.monotonic() - self._used > IDLE:
+            self.close()
+            self._reader, self._writer = await asyncio.open_connection("127.0.0.1", self._port, limit=1 << 22)
+        self._used = time.monotonic()
 
     @staticmethod
     def request(method: str, path: str, length: int = 0, headers: str = "") -> bytes:
@@ -33,11 +42,15 @@ class Connection:
 
     async def send(self, head: bytes, body: bytes = b"") -> Reply:
         """Send a request and read the answer."""
+        await self._connect()
+        assert self._writer is not None
         self._writer.write(head + body)
         lines = (await self._reader.readuntil(b"\r\n\r\n")).decode("latin-1").lower().split("\r\n")
         status = int(lines[0].split()[1])
         length = next((int(line[15:]) for line in lines if line.startswith("content-length:")), 0)
-        return Reply(status, await self._reader.readexactly(length))
+        content = await self._reader.readexactly(length)
+        self._used = time.monotonic()
+        return Reply(status, content)
 
     async def get(self, path: str) -> Reply:
         """Read something public."""
@@ -53,4 +66,5 @@ class Connection:
 
     def close(self) -> None:
         """Hang up."""
-        self._writer.close()
+        if self._writer is not None:
+            self._writer.close()
