@@ -10,7 +10,7 @@ import logging
 import secrets
 from collections.abc import AsyncIterator
 
-from sqlalchemy import delete, func, insert, select, update
+from sqlalchemy import Connection, delete, func, insert, select, update
 from starlette.concurrency import run_in_threadpool
 
 from referee.play import nanoseconds
