@@ -27,7 +27,7 @@ ROWS = 1000
 
 def measure(full: bool) -> Tables:
     """Periods without and with the batches, one after the other."""
-    return {"strokes": asyncio.run(compare(periods=10 if full else 2, seconds=8.0 if full else 3.0))}
+    return {"strokes": asyncio.run(compare(periods=7 if full else 2, seconds=8.0 if full else 3.0))}
 
 
 async def compare(periods: int, seconds: float) -> list[Row]:

@@ -7,6 +7,7 @@ import asyncio
 import json
 import signal
 import socket
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -19,6 +20,9 @@ from server.services.context import Context
 from server.settings import Settings
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
+SWITCH_SECONDS = 0.0005
+"""How long a thread may keep the interpreter while others want it, a tenth of Python's own choice: a stroke takes dozens
+of turns with it, and each may come behind a thread that reads or writes a batch."""
 BACKLOG = 2048
 """Connections that may wait to be accepted."""
 
@@ -70,6 +74,7 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
     Raises `SettingsError` when the database is not to be had.
     """
     logs.configure(settings.log_level)
+    sys.setswitchinterval(SWITCH_SECONDS)
     app = create_app(settings)
     context: Context = app.state.context
     context.database.membership.enter()

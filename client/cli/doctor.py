@@ -8,7 +8,7 @@ from client.cli.output import Json, emit, fail, say
 
 PACKAGES = ("physics", "referee", "server", "client")
 LIBRARIES = ("numpy", "numba", "pydantic", "httpx2", "typer", "rich")
-SERVER_LIBRARIES = ("fastapi", "uvicorn", "sqlalchemy", "alembic")
+SERVER_LIBRARIES = ("fastapi", "uvicorn", "sqlalchemy", "alembic", "prometheus_client")
 
 
 def doctor(

@@ -44,8 +44,9 @@ def simulate(request: SimulateRequest, run: Callable[..., physics.Result] = phys
 def simulate_batch(request: BatchRequest, run: Callable[..., physics.Batch] = physics.simulate_batch) -> BatchAnswer:
     """Many shots, each on its own. Raises `PhysicsError` naming the first bad row."""
     batch = run(Table.from_dict(request.table), _tables(request), _shots(request))
-    rows = zip(batch.status, batch.duration, batch.n_events, batch.positions, batch.pocket, strict=True)
-    return BatchAnswer(results=tuple(_row(*row) for row in rows))
+    columns = (batch.status, batch.duration, batch.n_events, batch.positions, batch.pocket)
+    rows = zip(*(column.tolist() for column in columns), strict=True)
+    return BatchAnswer.model_construct(results=tuple(_row(*row) for row in rows))
 
 
 def min_elevation(request: MinElevationRequest) -> MinElevationAnswer:
@@ -74,16 +75,18 @@ def _shots(request: BatchRequest) -> NDArray[np.float64]:
     return np.array(rows, dtype=np.float64)
 
 
-def _row(
-    status: int, duration: float, n_events: int, positions: NDArray[np.float64], pocket: NDArray[np.int8]
-) -> BatchRow:
-    return BatchRow(
-        status=Status(status).name.lower(),
-        duration=float(duration),
-        n_events=int(n_events),
-        balls=_balls(positions),
-        pocketed={ball: int(pocket[ball]) for ball in np.flatnonzero(pocket >= ON_TABLE).tolist()},
+def _row(status: int, duration: float, n_events: int, positions: list[list[float]], pocket: list[int]) -> BatchRow:
+    """One row; there may be ten thousand, so that what the physics says is not validated again."""
+    return BatchRow.model_construct(
+        status=_NAMES[status],
+        duration=duration,
+        n_events=n_events,
+        balls={ball: (x, y) for ball, (x, y) in enumerate(positions) if not math.isnan(x)},
+        pocketed={ball: where for ball, where in enumerate(pocket) if where >= ON_TABLE},
     )
+
+
+_NAMES = {status.value: status.name.lower() for status in Status}
 
 
 def _balls(positions: NDArray[np.float64]) -> dict[int, tuple[float, float]]:
