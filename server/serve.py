@@ -21,8 +21,8 @@ from server.settings import Settings
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 SWITCH_SECONDS = 0.0005
-"""How long a thread may keep the interpreter while others want it, a tenth of Python's own choice: a stroke takes dozens
-of turns with it, and each may come behind a thread that reads or writes a batch."""
+"""How long a thread may keep the interpreter while others want it, a tenth of Python's own choice: a stroke takes
+dozens of turns with it, and each may come behind a thread that reads or writes a batch."""
 BACKLOG = 2048
 """Connections that may wait to be accepted."""
 
