@@ -10,7 +10,8 @@ import pytest
 from server.errors import SettingsError
 from server.services.house import HouseBot, parse
 
-PATIENCE = 90.0
+PATIENCE = 240.0
+"""Seconds: after a change of the kernels a bot plays once they are compiled."""
 
 
 def until(condition, seconds=PATIENCE):
