@@ -5,6 +5,7 @@ way to the nearest free one, calls and decisions are chosen among those that are
 """
 
 import math
+from collections.abc import Sequence
 from typing import Final, Literal, TypeVar
 
 import numpy as np
@@ -75,7 +76,7 @@ def act(table: Table, game: Game, vector: NDArray[np.floating]) -> Action:
         return Action(decision=_pick(game.decisions, shares[7]))
     place = None if game.cue_ball_in_hand is None else _place(table, game, shares)
     before = game.state if place is None else game.state.moved(0, place)
-    call = None if game.phase is Phase.BREAK else _pick(_calls(game), shares[7])
+    call = None if game.phase is Phase.BREAK else _call(game, shares[7])
     return Action(shot=_shot(table, before, shares), call=call, cue_ball=place)
 
 
@@ -90,14 +91,15 @@ def _shares(vector: NDArray[np.floating]) -> list[float]:
     return shares
 
 
-def _pick(choices: tuple[T, ...], share: float) -> T:
+def _pick(choices: Sequence[T], share: float) -> T:
     return choices[min(int(share * len(choices)), len(choices) - 1)]
 
 
-def _calls(game: Game) -> tuple[Call | Literal["safety"], ...]:
-    """Every ball that may be called with every pocket, and a safety."""
-    named = [Call(ball, pocket) for ball in callable_balls(game) for pocket in range(N_POCKETS)]
-    return (*named, SAFETY)
+def _call(game: Game, share: float) -> Call | Literal["safety"]:
+    """One of the balls that may be called with one of the pockets, or a safety: all in a row, each as wide."""
+    balls = callable_balls(game)
+    ball, pocket = divmod(_pick(range(len(balls) * N_POCKETS + 1), share), N_POCKETS)
+    return SAFETY if ball == len(balls) else Call(balls[ball], pocket)
 
 
 def _place(table: Table, game: Game, shares: list[float]) -> Point:

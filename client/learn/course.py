@@ -6,7 +6,8 @@ import numpy as np
 
 from physics import Table
 from referee import Action, EightBall, EndReason, Game, NoiseModel
-from referee.play import GameSeeds, MatchSeed, Refused, play_stroke, start_game
+from referee.play import GameSeeds, Refused, play_stroke, start_game
+from referee.play.seeds import SEED_BYTES
 
 
 @dataclass(slots=True)
@@ -25,9 +26,8 @@ class Course:
     @classmethod
     def begin(cls, rules: EightBall, noise: NoiseModel, chance: np.random.Generator, start: Game | None) -> "Course":
         """A new game: racks, noise and the breaker drawn, or from a position."""
-        seed = MatchSeed(chance.bytes(32))
-        seeds = seed.game(0)
-        game = start_game(rules, seeds, seed.first_breaker) if start is None else start
+        seeds = GameSeeds(noise=chance.bytes(SEED_BYTES), racks=chance.bytes(SEED_BYTES))
+        game = start_game(rules, seeds, int(chance.integers(2))) if start is None else start
         return cls(rules, noise, seeds, game)
 
     def play(self, action: Action) -> None:
