@@ -6,7 +6,7 @@ import typer
 
 from client.cli.output import Json, emit, fail, say
 
-PACKAGES = ("physics", "referee", "server", "client")
+PACKAGES = ("physics", "referee", "tournament", "server", "client")
 LIBRARIES = ("numpy", "numba", "pydantic", "httpx2", "typer", "rich")
 SERVER_LIBRARIES = ("fastapi", "uvicorn", "sqlalchemy", "alembic", "prometheus_client")
 

@@ -106,7 +106,7 @@ def test_doctor_reports_and_agrees_with_itself():
     assert report["ok"] is True
     again = json.loads(run("doctor", "--json").stdout)
     assert report["self_test"]["digest"] == again["self_test"]["digest"]
-    assert set(report["packages"]) == {"physics", "referee", "server", "client"}
+    assert set(report["packages"]) == {"physics", "referee", "tournament", "server", "client"}
     assert report["versions"]["pooliad"]
     assert again["kernel_cache"]["state"] == "filled", "the first run compiled what was missing"
     assert report["self_test"]["digest"] in run("doctor").stdout
