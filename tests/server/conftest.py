@@ -22,6 +22,7 @@ BOTH = ("sqlite", "postgresql")
 DATABASES = {
     "test_agents": BOTH,
     "test_crashes": ("sqlite", pytest.param("postgresql", marks=pytest.mark.long)),
+    "test_draw": ("sqlite", pytest.param("postgresql", marks=pytest.mark.long)),
     "test_exactly_once": BOTH,
     "test_long_poll": BOTH,
     "test_matches": BOTH,

@@ -5,13 +5,15 @@ What a player checks afterwards is done here with nothing but the commitment it 
 
 import hashlib
 import json
-import sqlite3
 import time
 
 import pytest
 import rfc8785
+from sqlalchemy import update
 
 from referee.record import verify_record
+from server.store.database import Database
+from server.store.tables import matches
 
 MINE, THEIRS = "5f" * 32, "a0" * 32
 
@@ -220,9 +222,10 @@ def test_a_match_committed_to_another_engine_is_called_off_at_the_start(own_serv
     table.play(1)
     game, other = table.game, table_at(server)
     server.stop()
-    with sqlite3.connect(server.database) as connection:
-        connection.execute("update matches set engine = 'another' where id = ?", (table.match["id"],))
-    connection.close()
+    database = Database(server.database_url)
+    with database.writing() as connection:
+        connection.execute(update(matches).where(matches.c.id == table.match["id"]).values(engine="another"))
+    database.dispose()
     server.start()
     assert server.request("GET", f"/v1/matches/{table.match['id']}").json()["status"] == "aborted"
     assert other.is_running
