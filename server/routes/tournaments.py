@@ -15,7 +15,7 @@ from referee.wire import (
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
 from server.routes.dependencies import ANYBODY, Cursor, Limit, Sent, Server, respond
 from server.routes.describe import OWNED, describe
-from server.services import tournaments
+from server.services import events, tournaments
 
 router = APIRouter(prefix="/v1/tournaments", tags=["tournaments"])
 
@@ -37,7 +37,13 @@ def listing(
     context: Server,
     cursor: Cursor,
     limit: Limit,
-    status: Annotated[str | None, Query(description="created, running, paused, finished or aborted")] = None,
+    status: Annotated[
+        str | None,
+        Query(
+            description="created, running, paused, finished or aborted",
+            json_schema_extra={"enum": list(events.STATUSES)},
+        ),
+    ] = None,
 ) -> TournamentList:
     """Of one status when asked for."""
     return tournaments.listing(context, status, cursor, limit)

@@ -102,9 +102,9 @@ def own_server_with_bot(tmp_path: Path) -> Iterator[Server]:
     running.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """Chromium, without a window."""
+    """Chromium, without a window. Not for the whole session: Playwright keeps an event loop running meanwhile."""
     require(find_spec("playwright") is not None, "playwright, of the test extra")
     require(CHROMIUM is not None, "Chromium (Debian's package chromium)")
     from playwright.sync_api import sync_playwright

@@ -230,6 +230,7 @@ def test_the_laboratory_simulates_spreads_and_writes(human):
 
 
 def test_a_house_bot_accepts_and_plays(new_page, own_server_with_bot, watched):
+    watched.forgiven = ("409 (Conflict)",)  # the player's seed comes late when the bot was quick
     page = new_page(reduced_motion="reduce")
     page.goto(f"{own_server_with_bot.url}/#/play")
     page.get_by_label("New here? Choose a name").fill("guest of the house")

@@ -141,7 +141,7 @@ def test_the_server_compiles_nothing_any_more(image: Image, url: str) -> None:
     """The cache was warmed at build; every way into the kernels finds it."""
     before = image.compiled()
     assert before
-    assert ask(f"{url}/readyz") == {"status": "ready"}
+    assert ask(f"{url}/readyz")["status"] == "ready"
     balls, shot = {"0": [0.5, 1.7], "3": [0.4, 0.6]}, {"v": 2.0, "phi": 260.0, "theta": 10.0, "a": 0.0, "b": 0.0}
     token = ask(f"{url}/v1/agents", {"name": "reader"})["token"]
     ask(f"{url}/v1/simulate", {"balls": balls, "shot": shot}, token)
