@@ -139,7 +139,7 @@ def test_nothing_moves_by_itself_for_who_asked_so(new_page, server):
     page.locator(".row[aria-current]").wait_for()
     assert page.get_by_role("button", name="Play", exact=True).is_visible()
     end = float(page.get_by_label("Time of the stroke").get_attribute("max"))
-    assert page.locator("output.time").inner_text() == f"{end:.2f} s"
+    page.locator("output.time", has_text=f"{end:.2f} s").wait_for()
 
 
 def test_colours_are_chosen_and_kept(page, server):

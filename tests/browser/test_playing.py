@@ -126,6 +126,7 @@ def test_a_whole_game_is_played_by_hand(human):
     human.page.locator(".result", has_text=re.compile("wins|Drawn")).wait_for()
     human.page.get_by_role("button", name="Play again").wait_for()
     view = human.view(match.game)
+    human.page.locator("ol.strokes li").nth(view.version - 2).wait_for()
     assert human.page.locator("ol.strokes li").count() == view.version - 1
     assert view.outcome.rule in {"R42", "R43", "R44", "R45", "R46", "R49"}
     strokes = human.server.http.get(f"/v1/games/{match.game}/shots?limit=200").json()["shots"]

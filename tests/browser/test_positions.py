@@ -103,20 +103,21 @@ def test_a_record_file_replays_without_the_server(page, own_server, watched, tmp
     own_server.process.terminate()
     own_server.process.wait(20)
     page.get_by_label("Look at a record").set_input_files(file)
+    page.locator("ol.strokes li").nth(len(game.strokes) - 1).wait_for()
     assert page.locator("ol.strokes li").count() == len(game.strokes)
     slider = page.get_by_label("Time of the stroke")
     duration = game.strokes[0].result.duration
     assert float(slider.get_attribute("max")) == pytest.approx(duration, abs=1e-9)
     for part in (0.0, 0.31, 1.0):
         slider.evaluate(SLIDE, part * duration)
-        assert page.locator("output.time").inner_text() == f"{part * duration:.2f} s"
+        page.locator("output.time", has_text=f"{part * duration:.2f} s").wait_for()
     page.get_by_label("Event before").click()
     before = max(event.time for event in game.strokes[0].result.events if event.time < duration)
-    assert page.locator("output.time").inner_text() == f"{before:.2f} s"
+    page.locator("output.time", has_text=f"{before:.2f} s").wait_for()
     page.get_by_role("button", name="Play", exact=True).click()
     page.locator("output.time", has_text=f"{duration:.2f}").wait_for()
     page.get_by_role("button", name="stroke ▸").click()
-    assert page.locator(".row[aria-current]").inner_text().startswith("ann 3")
+    page.locator(".row[aria-current]", has_text="ann 3").wait_for()
 
 
 def test_a_file_that_is_no_record_is_said_to_be_none(page, server, tmp_path: Path):

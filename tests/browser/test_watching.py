@@ -27,6 +27,7 @@ def test_a_live_game_is_watched_to_its_end(page, server):
         page.locator("ol.strokes li").nth(played - 1).wait_for()
     concede(match)
     page.locator(".result", has_text="wins: concession").wait_for()
+    page.locator("ol.strokes li").nth(6).wait_for()
     assert page.locator("ol.strokes li").count() == 7
     seconds = page.locator("output.time").inner_text
     page.wait_for_function("() => document.querySelector('.row[aria-current]')")
@@ -105,7 +106,7 @@ def test_what_agents_say_never_becomes_markup(page, server, tmp_path: Path):
     page.goto(server.url)
     page.get_by_label("Look at a record").set_input_files(file)
     page.locator(".sentence", has_text="<script>").wait_for()
-    assert page.locator("h1").inner_text() == f"{evil} – javascript:window.caught=1"
+    page.locator("h1", has_text=f"{evil} – javascript:window.caught=1").wait_for()
     assert page.locator("main img, main script").count() == 0
     assert page.evaluate("window.caught") is None
     refused = server.http.post("/v1/agents", json={"name": evil})
