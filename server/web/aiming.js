@@ -159,7 +159,7 @@ export class Aiming {
   }
 
   previewed(answer, elevation, problem) {
-    if (!this.view) return;
+    if (!this.view || !this.legalPlace) return; // asked before the ball was dragged to where it may not lie
     this.settled = true;
     fill(this.problem, problem);
     if (elevation !== null && this.lowest.input.checked) {

@@ -155,11 +155,8 @@ def test_the_cue_ball_is_dragged_and_the_cue_aimed_by_mouse_and_keys(human):
     turn.wait_for(timeout=PATIENCE)
     view = human.view(match.game)
     table = view.table_model()
-    start = tuple(float(page.get_by_label(f"Cue ball {way}, m").input_value()) for way in ("across", "along"))
-    drag(page, table, start, (0.3, 1.95))
-    moved = tuple(float(page.get_by_label(f"Cue ball {way}, m").input_value()) for way in ("across", "along"))
-    assert moved == pytest.approx((0.3, 1.95), abs=0.005)
-    drag(page, table, moved, (0.3, 0.5))
+    carry(page, table, (0.3, 1.95))
+    carry(page, table, (0.3, 0.5))
     turn.get_by_text("may not lie there").wait_for()
     assert turn.get_by_role("button", name="Shoot").is_disabled()
     human.fill("Cue ball across, m", 0.3)
@@ -173,6 +170,20 @@ def test_the_cue_ball_is_dragged_and_the_cue_aimed_by_mouse_and_keys(human):
     before = float(speed.input_value())
     page.locator(".table canvas").press("Shift+ArrowDown")
     assert float(speed.input_value()) == pytest.approx(before - 0.05)
+
+
+def cue_ball(page) -> tuple[float, ...]:
+    """Where the fields say that it lies."""
+    return tuple(float(page.get_by_label(f"Cue ball {way}, m").input_value()) for way in ("across", "along"))
+
+
+def carry(page, table: physics.Table, end) -> None:
+    """Drag the cue ball; again when the page has moved below the pointer, for a preview that came meanwhile."""
+    for _ in range(4):
+        drag(page, table, cue_ball(page), end)
+        if cue_ball(page) == pytest.approx(end, abs=0.005):
+            return
+    pytest.fail(f"the cue ball was dragged to {end} and lies at {cue_ball(page)}")
 
 
 def drag(page, table: physics.Table, start, end) -> None:
