@@ -2,20 +2,21 @@
 
 ::
 
-    PhysicsError (ValueError)
-    ├── InvalidTable    a table parameter
-    ├── InvalidState    positions of the balls
-    └── InvalidShot     parameters of a shot
+    FieldError (ValueError)
+    └── PhysicsError
+        ├── InvalidTable    a table parameter
+        ├── InvalidState    positions of the balls
+        └── InvalidShot     parameters of a shot
 """
 
 from typing import Any
 
 
-class PhysicsError(ValueError):
-    """Bad input to the physics.
+class FieldError(ValueError):
+    """Bad input, of whatever package.
 
     Attributes:
-        field: name of the offending parameter, e.g. ``"v"`` or ``"positions[3]"``.
+        field: name of the offending part, e.g. ``"v"``, ``"positions[3]"`` or ``"call.pocket"``.
         value: what came.
         allowed: what is allowed, in words.
     """
@@ -29,6 +30,10 @@ class PhysicsError(ValueError):
     def __reduce__(self) -> tuple[type, tuple[str, Any, str]]:
         """Pickle by the three arguments, so that the error crosses process borders."""
         return type(self), (self.field, self.value, self.allowed)
+
+
+class PhysicsError(FieldError):
+    """Bad input to the physics."""
 
 
 class InvalidTable(PhysicsError):

@@ -1,6 +1,6 @@
 """A row of six touching balls on the slowest cloth came to EVENT_LIMIT: parted pairs bounced off their neighbours.
 
-With e < 1 the bounces halved a thousand times at every touch, every 40 ms. What step 3 of the contact rule sets in
+With e = 0.8 that made a million events in 45 s, touching every 40 ms. What step 3 of the contact rule sets in
 motion now acts plastically (docs/physics.md, "Contacts").
 """
 
