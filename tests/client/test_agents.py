@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from support.whole_game import whole_game
 
 import client
 import physics
@@ -12,8 +13,7 @@ from client.agents.greedy.agent import _Turn
 from client.agents.greedy.candidates import Candidates
 from client.agents.greedy.worth import worth
 from referee import Action, Call, CueBallArea, Decision, EightBall, EndReason, Game, Group, Outcome, Phase
-from referee.play import MatchSeed, NoiseModel
-from referee.play.local import Watch, play_match
+from referee.play import NoiseModel
 
 TABLE = physics.Table.olympiad()
 RULES = EightBall(TABLE)
@@ -35,29 +35,10 @@ def turn(balls, noise=1.0, **fields):
 @pytest.mark.parametrize("pair", [("random", "random"), ("greedy", "random")], ids="-".join)
 def test_no_action_of_a_shipped_agent_is_refused(pair, noise):
     """Whole games, every phase of them: breaks, ball in hand, decisions, the 8."""
-    refused = []
     for seed in range(3):
-        agents = [client.load(name, seed=seed) for name in pair]
-
-        def seats(_number, _budgets, agents=agents):
-            return tuple(_chooser(factory()) for factory in agents)
-
-        watch = Watch(on_refusal=refused.append)
-        (game,) = play_match(RULES, seats, MatchSeed.of(seed), 1, NoiseModel(noise), watch=watch)
+        game, refused = whole_game([client.load(name, seed=seed) for name in pair], seed, noise)
         assert game.outcome.reason not in (EndReason.FORFEIT, EndReason.CONCESSION)
-    assert refused == []
-
-
-def _chooser(agent):
-    started = []
-
-    def choose(view):
-        if not started:
-            agent.game_started(view)
-            started.append(view)
-        return agent.choose(view)
-
-    return choose
+        assert refused == []
 
 
 def test_greedy_is_far_ahead_of_random():

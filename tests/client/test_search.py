@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support.whole_game import whole_game
 
 import client
 import physics
@@ -20,8 +21,6 @@ from client.agents.search.shots import Tables
 from client.agents.search.sight import ROOM, Sight
 from client.errors import AgentNotFound
 from referee import Action, CueBallArea, Decision, EightBall, EndReason, Game, Group, Phase
-from referee.play import MatchSeed, NoiseModel
-from referee.play.local import Watch, play_match
 from referee.wire import ClockView, GameTerms, NoiseView, View
 
 TABLE = physics.Table.olympiad()
@@ -148,28 +147,10 @@ def test_it_keeps_to_its_number_of_shots(shots):
 @pytest.mark.parametrize("opponent", ["random", "greedy"])
 def test_no_action_is_refused(opponent, noise):
     """Whole games, every phase of them."""
-    refused = []
     agents = [client.load(f"search:shots={FEW}", seed=1), client.load(opponent, seed=1)]
-
-    def seats(_number, _budgets):
-        return tuple(_chooser(factory()) for factory in agents)
-
-    watch = Watch(on_refusal=refused.append)
-    (game,) = play_match(RULES, seats, MatchSeed.of(5), 1, NoiseModel(noise), watch=watch)
+    game, refused = whole_game(agents, 5, noise)
     assert game.outcome.reason not in (EndReason.FORFEIT, EndReason.CONCESSION)
     assert refused == []
-
-
-def _chooser(agent):
-    started = []
-
-    def choose(view):
-        if not started:
-            agent.game_started(view)
-            started.append(view)
-        return agent.choose(view)
-
-    return choose
 
 
 class Ticking:

@@ -11,6 +11,20 @@ depends_on = None
 
 def upgrade() -> None:
     """Create them."""
+    _create_callers()
+    _create_play()
+    _create_server()
+    _create_events()
+
+
+def _sequence() -> sa.Column[int]:
+    """A number that grows with every row."""
+    kind = sa.BigInteger().with_variant(sa.Integer(), "sqlite")
+    return sa.Column("sequence", kind, autoincrement=True, nullable=False)
+
+
+def _create_callers() -> None:
+    """Who calls, with what right, and what was answered and told."""
     op.create_table(
         "agents",
         sa.Column("id", sa.String(length=64), nullable=False),
@@ -40,6 +54,44 @@ def upgrade() -> None:
         sa.Column("created_at", sa.BigInteger(), nullable=False),
         sa.PrimaryKeyConstraint("caller", "route", "key", name=op.f("pk_answers")),
     )
+    op.create_table(
+        "notices",
+        _sequence(),
+        sa.Column("agent_id", sa.String(length=64), nullable=False),
+        sa.Column("message", sa.Text(), nullable=False),
+        sa.Column("delivered_at", sa.BigInteger(), nullable=True),
+        sa.ForeignKeyConstraint(["agent_id"], ["agents.id"], name=op.f("fk_notices_agent_id_agents")),
+        sa.PrimaryKeyConstraint("sequence", name=op.f("pk_notices")),
+    )
+    op.create_index("ix_notices_agent_delivered", "notices", ["agent_id", "delivered_at"], unique=False)
+    op.create_table(
+        "tokens",
+        sa.Column("id", sa.String(length=64), nullable=False),
+        sa.Column("digest", sa.String(length=64), nullable=False),
+        sa.Column("agent_id", sa.String(length=64), nullable=True),
+        sa.Column("name", sa.String(length=64), nullable=True),
+        sa.Column("scopes", sa.String(length=64), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.Column("expires_at", sa.BigInteger(), nullable=True),
+        sa.Column("revoked_at", sa.BigInteger(), nullable=True),
+        sa.ForeignKeyConstraint(["agent_id"], ["agents.id"], name=op.f("fk_tokens_agent_id_agents")),
+        sa.PrimaryKeyConstraint("id", name=op.f("pk_tokens")),
+        sa.UniqueConstraint("digest", name=op.f("uq_tokens_digest")),
+    )
+    op.create_table(
+        "invitations",
+        sa.Column("digest", sa.String(length=64), nullable=False),
+        sa.Column("created_at", sa.BigInteger(), nullable=False),
+        sa.Column("expires_at", sa.BigInteger(), nullable=True),
+        sa.Column("used_at", sa.BigInteger(), nullable=True),
+        sa.Column("agent_id", sa.String(length=64), nullable=True),
+        sa.PrimaryKeyConstraint("digest", name=op.f("pk_invitations")),
+    )
+    op.create_index(op.f("ix_tokens_agent_id"), "tokens", ["agent_id"], unique=False)
+
+
+def _create_play() -> None:
+    """Matches, their games, every stroke, every charge of a clock."""
     op.create_table(
         "matches",
         sa.Column("id", sa.String(length=64), nullable=False),
@@ -80,54 +132,6 @@ def upgrade() -> None:
     op.create_index(op.f("ix_matches_seat_0"), "matches", ["seat_0"], unique=False)
     op.create_index(op.f("ix_matches_seat_1"), "matches", ["seat_1"], unique=False)
     op.create_index(op.f("ix_matches_status"), "matches", ["status"], unique=False)
-    op.create_table(
-        "notices",
-        sa.Column(
-            "sequence",
-            sa.BigInteger().with_variant(sa.Integer(), "sqlite"),
-            autoincrement=True,
-            nullable=False,
-        ),
-        sa.Column("agent_id", sa.String(length=64), nullable=False),
-        sa.Column("message", sa.Text(), nullable=False),
-        sa.Column("delivered_at", sa.BigInteger(), nullable=True),
-        sa.ForeignKeyConstraint(["agent_id"], ["agents.id"], name=op.f("fk_notices_agent_id_agents")),
-        sa.PrimaryKeyConstraint("sequence", name=op.f("pk_notices")),
-    )
-    op.create_index("ix_notices_agent_delivered", "notices", ["agent_id", "delivered_at"], unique=False)
-    op.create_table(
-        "signing_keys",
-        sa.Column("id", sa.String(length=32), nullable=False),
-        sa.Column("private_key", sa.LargeBinary(), nullable=False),
-        sa.Column("public_key", sa.String(length=64), nullable=False),
-        sa.Column("valid_from", sa.BigInteger(), nullable=False),
-        sa.Column("valid_until", sa.BigInteger(), nullable=True),
-        sa.PrimaryKeyConstraint("id", name=op.f("pk_signing_keys")),
-    )
-    op.create_table(
-        "tokens",
-        sa.Column("id", sa.String(length=64), nullable=False),
-        sa.Column("digest", sa.String(length=64), nullable=False),
-        sa.Column("agent_id", sa.String(length=64), nullable=True),
-        sa.Column("name", sa.String(length=64), nullable=True),
-        sa.Column("scopes", sa.String(length=64), nullable=False),
-        sa.Column("created_at", sa.BigInteger(), nullable=False),
-        sa.Column("expires_at", sa.BigInteger(), nullable=True),
-        sa.Column("revoked_at", sa.BigInteger(), nullable=True),
-        sa.ForeignKeyConstraint(["agent_id"], ["agents.id"], name=op.f("fk_tokens_agent_id_agents")),
-        sa.PrimaryKeyConstraint("id", name=op.f("pk_tokens")),
-        sa.UniqueConstraint("digest", name=op.f("uq_tokens_digest")),
-    )
-    op.create_table(
-        "invitations",
-        sa.Column("digest", sa.String(length=64), nullable=False),
-        sa.Column("created_at", sa.BigInteger(), nullable=False),
-        sa.Column("expires_at", sa.BigInteger(), nullable=True),
-        sa.Column("used_at", sa.BigInteger(), nullable=True),
-        sa.Column("agent_id", sa.String(length=64), nullable=True),
-        sa.PrimaryKeyConstraint("digest", name=op.f("pk_invitations")),
-    )
-    op.create_index(op.f("ix_tokens_agent_id"), "tokens", ["agent_id"], unique=False)
     op.create_table(
         "games",
         sa.Column("id", sa.String(length=64), nullable=False),
@@ -171,12 +175,7 @@ def upgrade() -> None:
     op.create_index(op.f("ix_games_mover"), "games", ["mover"], unique=False)
     op.create_table(
         "charges",
-        sa.Column(
-            "sequence",
-            sa.BigInteger().with_variant(sa.Integer(), "sqlite"),
-            autoincrement=True,
-            nullable=False,
-        ),
+        _sequence(),
         sa.Column("game_id", sa.String(length=64), nullable=False),
         sa.Column("seat", sa.Integer(), nullable=False),
         sa.Column("move", sa.Integer(), nullable=True),
@@ -188,22 +187,8 @@ def upgrade() -> None:
     )
     op.create_index(op.f("ix_charges_game_id"), "charges", ["game_id"], unique=False)
     op.create_table(
-        "heartbeats",
-        sa.Column("process", sa.String(length=64), nullable=False),
-        sa.Column("beat_at", sa.BigInteger(), nullable=False),
-        sa.Column("clear_until", sa.BigInteger(), nullable=False),
-        sa.Column("stopped", sa.Boolean(), nullable=False),
-        sa.Column("present", sa.JSON(), nullable=False),
-        sa.PrimaryKeyConstraint("process", name=op.f("pk_heartbeats")),
-    )
-    op.create_table(
         "moves",
-        sa.Column(
-            "sequence",
-            sa.BigInteger().with_variant(sa.Integer(), "sqlite"),
-            autoincrement=True,
-            nullable=False,
-        ),
+        _sequence(),
         sa.Column("game_id", sa.String(length=64), nullable=False),
         sa.Column("number", sa.Integer(), nullable=False),
         sa.Column("seat", sa.Integer(), nullable=False),
@@ -214,6 +199,32 @@ def upgrade() -> None:
         sa.PrimaryKeyConstraint("sequence", name=op.f("pk_moves")),
         sa.UniqueConstraint("game_id", "number", name=op.f("uq_moves_game_id_number")),
     )
+
+
+def _create_server() -> None:
+    """What the server processes themselves keep."""
+    op.create_table(
+        "signing_keys",
+        sa.Column("id", sa.String(length=32), nullable=False),
+        sa.Column("private_key", sa.LargeBinary(), nullable=False),
+        sa.Column("public_key", sa.String(length=64), nullable=False),
+        sa.Column("valid_from", sa.BigInteger(), nullable=False),
+        sa.Column("valid_until", sa.BigInteger(), nullable=True),
+        sa.PrimaryKeyConstraint("id", name=op.f("pk_signing_keys")),
+    )
+    op.create_table(
+        "heartbeats",
+        sa.Column("process", sa.String(length=64), nullable=False),
+        sa.Column("beat_at", sa.BigInteger(), nullable=False),
+        sa.Column("clear_until", sa.BigInteger(), nullable=False),
+        sa.Column("stopped", sa.Boolean(), nullable=False),
+        sa.Column("present", sa.JSON(), nullable=False),
+        sa.PrimaryKeyConstraint("process", name=op.f("pk_heartbeats")),
+    )
+
+
+def _create_events() -> None:
+    """Tournaments, their entries and their games."""
     op.create_table(
         "tournaments",
         sa.Column("id", sa.String(length=64), nullable=False),
@@ -231,12 +242,7 @@ def upgrade() -> None:
     op.create_index(op.f("ix_tournaments_status"), "tournaments", ["status"], unique=False)
     op.create_table(
         "tournament_entries",
-        sa.Column(
-            "sequence",
-            sa.BigInteger().with_variant(sa.Integer(), "sqlite"),
-            autoincrement=True,
-            nullable=False,
-        ),
+        _sequence(),
         sa.Column("tournament_id", sa.String(length=64), nullable=False),
         sa.Column("kind", sa.String(length=32), nullable=False),
         sa.Column("by", sa.String(length=64), nullable=False),
