@@ -10,7 +10,8 @@ from client.cli.output import USAGE, Json, emit, fail
 
 def demo(
     agents: Annotated[
-        tuple[str, str], typer.Option(help="Two agents: random, greedy, search, module:Class, or stdio:COMMAND.")
+        tuple[str, str],
+        typer.Option(help="Two agents: random, greedy, search, search:seconds=0.3, module:Class, or stdio:COMMAND."),
     ] = ("greedy", "random"),
     games: Annotated[int, typer.Option(min=1, max=1000, help="Games in the match.")] = 1,
     seed: Annotated[

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from client.agents.registry import SHIPPED, titles
+from client.agents.registry import titles
 from client.cli import embedded
 from client.cli.output import fail, say
 from client.cli.processes import Child
@@ -63,8 +63,7 @@ class Stage:
     def _enter(self, organiser: Pooliad, url: str, name: str, program: str) -> AgentView:
         """Register an agent and start its process."""
         entry = organiser.register(name)
-        command = [sys.executable, "-P", "-m", "client.cli", "agent", "run", program]
-        command += ["--seed", str(self._seed)] if program in SHIPPED else []
+        command = [sys.executable, "-P", "-m", "client.cli", "agent", "run", program, "--seed", str(self._seed)]
         environment = {"POOLIAD_URL": url, "POOLIAD_TOKEN": entry.token}
         self._children.append(Child(name, command, self._directory / f"{name}.log", environment))
         return entry.agent

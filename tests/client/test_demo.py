@@ -36,11 +36,15 @@ def processes_of(directory):
     return found
 
 
+AGENTS = ("--agents", "search:shots=500,safeties=off", "random")
+"""One of them with options (docs/agents.md, "search"), in letters that a server does not allow in names."""
+
+
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
     """A demo of two games, its account, and its directory."""
     out = tmp_path_factory.mktemp("demo") / "out"
-    done = run("demo", "--games", 2, "--seed", 7, "--out", out, "--json")
+    done = run("demo", *AGENTS, "--games", 2, "--seed", 7, "--out", out, "--json")
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout), out
 
@@ -48,6 +52,7 @@ def finished(tmp_path_factory):
 def test_every_game_is_won_by_the_rules(finished):
     account, _ = finished
     assert account["status"] == "finished"
+    assert account["agents"] == ["search-shots-500-safeties-off", "random"]
     assert len(account["games"]) == 2
     for game in account["games"]:
         assert game["winner"] in account["agents"]
@@ -83,7 +88,7 @@ def test_a_changed_record_does_not_verify(finished, tmp_path):
 
 def test_the_seed_repeats_the_match(finished, tmp_path):
     account, _ = finished
-    again = json.loads(run("demo", "--seed", 7, "--out", tmp_path / "again", "--json").stdout)
+    again = json.loads(run("demo", *AGENTS, "--seed", 7, "--out", tmp_path / "again", "--json").stdout)
     kept = ("winner", "reason", "strokes_by_seat", "fouls", "called", "made", "simulated_seconds", "breaker")
     here, there = account["games"][0], again["games"][0]
     assert {name: here[name] for name in kept} == {name: there[name] for name in kept}
