@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from referee import Game
     from referee.wire import MatchOver
 
-Name = Annotated[str, typer.Argument(help="random, greedy, search (search:seconds=0.3), module:Class of your own, or stdio:COMMAND.")]
+Name = Annotated[str, typer.Argument(help="random, greedy, search:seconds=0.3, module:Class, or stdio:COMMAND.")]
 Url = Annotated[str, typer.Option(envvar="POOLIAD_URL", help="Address of the server.")]
 Token = Annotated[str, typer.Option(envvar="POOLIAD_TOKEN", help="The agent's token; better in the environment.")]
 Seed = Annotated[int | None, typer.Option(min=0, help="Makes a shipped agent repeat its choices.")]

@@ -23,8 +23,10 @@ SCREENING = 6
 """Noisy copies of every stroke."""
 NARROWING = ((0.25, 10), (0.3, 24), (0.4, 48))
 """Then so large a share of them is kept, and played so many times more; and again."""
-POT_SHARE = 0.35
-"""Of the budget, for straight pots before any looking ahead."""
+POT_SHARE, POT_SHARE_ALONE = 0.35, 0.8
+"""Of the budget, for straight pots before any looking ahead; and without it."""
+MOST_COPIES = 600
+"""Of a finalist in a round, however large the budget."""
 FULL = 8000
 """Shots in the budget from which all those copies are played; below it fewer."""
 FINALISTS = 8
@@ -89,9 +91,11 @@ class Turn:
             found = None
         if found is None:
             return self._reckoned(tables)
-        if self._options.lookahead:
-            with contextlib.suppress(BudgetSpent):
+        with contextlib.suppress(BudgetSpent):
+            if self._options.lookahead:
                 self._look_ahead(found)
+            else:
+                found = self._told_apart(found)
         for best in np.argsort(-found.worth, kind="stable").tolist():
             action = self._action(found.shots, best)
             if not self._rules.check(self._game, action):
@@ -128,7 +132,8 @@ class Turn:
         pots = int(np.clip(budget.total / 2500, 3, 10)) if len(tables) == 1 else 2
         listed = sight.pots(tables, pots)
         there = max(1, int((listed.chance > 0.0).sum()))
-        ways = int(np.clip(POT_SHARE * budget.total / (AIMS + SCREENING) / there, 4, 100)) if self._options.ways else 2
+        share, most = (POT_SHARE, 100) if self._options.lookahead else (POT_SHARE_ALONE, 400)
+        ways = int(np.clip(share * budget.total / (AIMS + SCREENING) / there, 4, most)) if self._options.ways else 2
         shots = sight.raised(in_all_ways(tables, listed, ways))
         return self._narrowed(centred(self._evaluator, shots, AIMS)) if len(shots) else None
 
@@ -160,6 +165,20 @@ class Turn:
         order = np.argsort(-outcomes.mean(), kind="stable")[:FINALISTS]
         nothing = np.zeros(len(order))
         return Finalists(shots[order], outcomes[order], nothing, nothing.copy())
+
+    def _told_apart(self, found: Finalists) -> Finalists:
+        """The best finalists, played more often, fewer and fewer of them, until the budget is spent."""
+        budget, keep = self._evaluator.budget, len(found.shots)
+        while keep > 1 and self._evaluator.noise > 0.0:
+            affordable = int((1.0 - budget.spent) * budget.total / (keep * keep.bit_length()))
+            copies = min(affordable, MOST_COPIES)
+            if copies < SCREENING:
+                break
+            order = np.argsort(-found.outcomes.mean(), kind="stable")[:keep]
+            outcomes = found.outcomes[order].more(self._evaluator.noisy(found.shots[order], copies, self._kitchen))
+            found = Finalists(found.shots[order], outcomes, found.added[order], found.looked[order])
+            keep //= 2
+        return found
 
     def _look_ahead(self, found: Finalists) -> None:
         """Correct all finalists by looking ahead, and then the best of them, until the budget is spent."""
