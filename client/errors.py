@@ -36,7 +36,8 @@
         ├── TooManyRequests     429
         └── ServerError         5xx
             ├── Internal
-            └── Draining
+            ├── Draining
+            └── Unavailable
 """
 
 import contextlib
@@ -287,6 +288,12 @@ class Draining(ServerError):
     """The server is shutting down."""
 
     code = ProblemCode.DRAINING
+
+
+class Unavailable(ServerError):
+    """The server's database does not answer."""
+
+    code = ProblemCode.UNAVAILABLE
 
 
 def error_of(response: httpx2.Response) -> ApiError:

@@ -8,7 +8,7 @@ import os
 import sys
 from pathlib import Path
 
-from server.errors import SettingsError
+from server.errors import SettingsError, Unavailable
 from server.processes import serve_by_many
 from server.serve import serve
 from server.settings import effective
@@ -28,7 +28,7 @@ def main() -> None:
             serve(settings, options.host, options.port)
         else:
             serve_by_many(settings, options.host, options.port, options.processes)
-    except (SettingsError, OSError) as error:
+    except (SettingsError, Unavailable, OSError) as error:
         sys.exit(f"pooliad server: {error}")
 
 

@@ -35,7 +35,7 @@ gets the stored answer. Errors are RFC 9457 problem details with a stable `code`
 
 def create_app(settings: Settings) -> FastAPI:
     """The server as an ASGI application; its database is opened and brought up to date when it starts."""
-    database = Database(settings.database)
+    database = Database(settings.database, settings.database_seconds)
     context = Context(
         settings,
         database,

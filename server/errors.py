@@ -27,7 +27,8 @@
     ├── VersionRequired         428
     ├── TooManyRequests         429  says whose limit it is and how long to wait
     ├── Internal                500  a fault of ours
-    └── Draining                503
+    ├── Draining                503
+    └── Unavailable             503  the database does not answer
 """
 
 import logging
@@ -240,6 +241,13 @@ class Draining(ServerError):
     """The server is shutting down."""
 
     status, code = 503, ProblemCode.DRAINING
+    headers: ClassVar[Mapping[str, str]] = {"retry-after": "1"}
+
+
+class Unavailable(ServerError):
+    """The database does not answer: it is lost, or somebody has it locked."""
+
+    status, code = 503, ProblemCode.UNAVAILABLE
     headers: ClassVar[Mapping[str, str]] = {"retry-after": "1"}
 
 

@@ -16,7 +16,7 @@ from multiprocessing.connection import wait
 from multiprocessing.context import SpawnProcess
 from types import FrameType
 
-from server.errors import SettingsError
+from server.errors import SettingsError, Unavailable
 from server.ops.metrics import SHARED_FOLDER
 from server.serve import announce, listening, serve_on
 from server.settings import Settings
@@ -104,7 +104,7 @@ def _serve(server_socket: socket.socket, settings: Settings, ready: "threading.E
     threading.Thread(target=_follow_parent, name="parent", daemon=True).start()
     try:
         serve_on(server_socket, settings, ready.set)
-    except SettingsError as error:
+    except (SettingsError, Unavailable) as error:
         sys.exit(f"pooliad server: {error}")
 
 

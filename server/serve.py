@@ -4,6 +4,7 @@ The address is announced, and a signal sends waiting polls home before the rest 
 """
 
 import asyncio
+import gc
 import json
 import signal
 import socket
@@ -95,6 +96,7 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
         timeout_graceful_shutdown=max(1, round(settings.drain_seconds)),
     )
     _Server(config, context, started).run([server_socket])
+    gc.freeze()  # all is closed: the interpreter's last look for garbage takes seconds on what the compiler left
 
 
 def listening(host: str, port: int) -> socket.socket:

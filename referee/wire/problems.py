@@ -63,6 +63,8 @@ class ProblemCode(StrEnum):
     """500: a fault of the server."""
     DRAINING = "draining"
     """503: the server is shutting down; try again soon."""
+    UNAVAILABLE = "unavailable"
+    """503: the server's database does not answer; try again soon."""
 
 
 class Fault(Message):

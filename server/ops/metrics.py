@@ -13,6 +13,7 @@ from prometheus_client.multiprocess import MultiProcessCollector
 from prometheus_client.registry import Collector
 from sqlalchemy import func, select
 
+from server.errors import Unavailable
 from server.store.database import Database
 from server.store.tables import games
 
@@ -64,7 +65,10 @@ class _Games(Collector):
         self._database = database
 
     def collect(self) -> Iterable[Metric]:
-        """The games that are on."""
-        with self._database.reading() as connection:
-            running = connection.scalar(select(func.count()).where(games.c.mover.is_not(None))) or 0
+        """The games that are on; nothing while the database does not answer, for then all else is wanted."""
+        try:
+            with self._database.reading() as connection:
+                running = connection.scalar(select(func.count()).where(games.c.mover.is_not(None))) or 0
+        except Unavailable:
+            return
         yield GaugeMetricFamily("pooliad_games_running", "Games that are on, whoever serves them.", value=running)

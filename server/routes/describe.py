@@ -22,6 +22,7 @@ from server.errors import (
     TooLarge,
     TooManyRequests,
     Unauthorized,
+    Unavailable,
     UnsupportedMediaType,
 )
 from server.services.commands import LONGEST_KEY
@@ -81,7 +82,8 @@ def describe(
     responses = {status: _success(answer) for status, answer in (success or {}).items()}
     described: Described = {
         "openapi_extra": extra,
-        "responses": responses | _problems(*problems, *implied, *([TooManyRequests] if limited else []), Internal),
+        "responses": responses
+        | _problems(*problems, *implied, *([TooManyRequests] if limited else []), Internal, Unavailable),
     }
     if success:
         described |= {"status_code": min(success), "response_model": None}

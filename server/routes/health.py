@@ -1,12 +1,15 @@
 """For whoever runs the server: is the process alive, can it do its work."""
 
+from functools import partial
+
 from fastapi import APIRouter, Response
 from prometheus_client import CONTENT_TYPE_PLAIN_0_0_4
 
 from referee.record import this_engine
-from server.errors import Draining
+from server.errors import Draining, Unavailable
 from server.routes.dependencies import Server
 from server.routes.describe import describe
+from server.services.context import Context
 from server.store.upgrade import head, is_current
 
 router = APIRouter(tags=["operations"])
@@ -14,21 +17,31 @@ router = APIRouter(tags=["operations"])
 
 @router.head("/healthz", include_in_schema=False)
 @router.get("/healthz", **describe(token=False, limited=False), summary="The process runs")
-def healthz() -> dict[str, str]:
-    """Answers as long as the process serves requests at all."""
+async def healthz() -> dict[str, str]:
+    """Answers as long as the process serves requests at all, whatever its threads are busy with."""
     return {"status": "ok"}
 
 
 @router.head("/readyz", include_in_schema=False)
 @router.get("/readyz", **describe(Draining, token=False, limited=False), summary="The server can take games")
-def readyz(context: Server) -> dict[str, str]:
-    """The kernels are loaded and pass their self-test, the database has this version's tables, nobody shuts it down."""
+async def readyz(context: Server) -> dict[str, str]:
+    """The kernels are loaded and pass their self-test, the database is written to and has this version's tables.
+
+    And nobody shuts the server down.
+    """
+    return await context.run_aside(partial(readiness, context))
+
+
+def readiness(context: Context) -> dict[str, str]:
+    """What the server is ready with; raises `Draining` or `Unavailable`."""
     if context.wakeups.draining.is_set():
         raise Draining("the server is shutting down")
     if context.warm_up_failed.is_set():
         raise Draining("the physics kernels could not be loaded; the log says why")
     if not context.warm.is_set():
         raise Draining("the physics kernels are being loaded")
+    if context.pulse.is_lost(context.time.now()):
+        raise Unavailable("the database does not take this process's heartbeats")
     if not is_current(context.database):
         raise Draining("the database has the tables of another version")
     (tested,) = context.self_test
@@ -46,6 +59,7 @@ def readyz(context: Server) -> dict[str, str]:
     **describe(success={200: "text/plain"}, token=False, limited=False),
     summary="What the server counts and measures, for Prometheus",
 )
-def metrics(context: Server) -> Response:
+async def metrics(context: Server) -> Response:
     """In Prometheus' text format."""
-    return Response(context.metrics.text(context.database), media_type=CONTENT_TYPE_PLAIN_0_0_4)
+    text = await context.run_aside(partial(context.metrics.text, context.database))
+    return Response(text, media_type=CONTENT_TYPE_PLAIN_0_0_4)

@@ -5,7 +5,9 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from typing import Final, TypeVar
 
+from anyio import CapacityLimiter, to_thread
 from sqlalchemy import Connection
 
 from physics.self_test import SelfTest
@@ -16,10 +18,15 @@ from server.ops.metrics import Metrics
 from server.services.limits import Limits
 from server.services.physics_pool import PhysicsPool
 from server.services.presence import Presence
+from server.services.pulse import Pulse
 from server.services.time import TimeSource
 from server.services.wakeups import Wakeups
 from server.settings import Settings
 from server.store.database import Database
+
+T = TypeVar("T")
+
+THREADS_ASIDE: Final = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +36,8 @@ class Context:
     Attributes:
         warm: set when the kernels are loaded; warm_up_failed: set when they could not be.
         self_test: what the physics' self-test came to, once it has passed.
+        aside: threads for what must not wait behind requests: signs of life, the timer, what is asked about health.
+        pulse: whether the signs of life reach the database.
         in_hand: for each game the arrival times of the requests that are being worked on.
         failpoint: told every step at which tests have the process killed.
         match_over: called when a match has ended, with its id, in the transaction that ended it.
@@ -43,6 +52,8 @@ class Context:
     warm_up_failed: threading.Event = field(default_factory=threading.Event)
     self_test: list[SelfTest] = field(default_factory=list)
     metrics: Metrics = field(default_factory=Metrics)
+    aside: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(THREADS_ASIDE))
+    pulse: Pulse = field(init=False)
     limits: Limits = field(init=False)
     physics: PhysicsPool = field(init=False)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
@@ -50,8 +61,13 @@ class Context:
     match_over: Callable[["Writing", str], None] = lambda writing, match_id: None
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "pulse", Pulse(nanoseconds(self.settings.heartbeat_period)))
         object.__setattr__(self, "limits", Limits.of(self.settings, self.time))
         object.__setattr__(self, "physics", PhysicsPool(self.settings.physics_threads))
+
+    async def run_aside(self, work: Callable[[], T]) -> T:
+        """What `work` returns, done by a thread that no request can keep busy."""
+        return await to_thread.run_sync(work, limiter=self.aside)
 
     @property
     def fetch_grace(self) -> int:

@@ -11,18 +11,16 @@ import secrets
 from collections.abc import AsyncIterator
 
 from sqlalchemy import Connection, delete, func, insert, select, update
-from starlette.concurrency import run_in_threadpool
 
-from referee.play import nanoseconds
+from referee.play.clock import SECOND_NS
+from server.errors import Unavailable
 from server.services import turn_clock
 from server.services.context import Context, Writing
 from server.services.live import RUNNING, find
+from server.store.locks import hold_match_of, only_one
 from server.store.tables import games, heartbeats
 
 log = logging.getLogger("pooliad.server.heartbeat")
-
-MISSED_BEATS = 3
-"""A process that missed so many beats is dead; what it had in hand is lost, and its players send it again."""
 
 
 class Heartbeat:
@@ -36,7 +34,7 @@ class Heartbeat:
     @contextlib.asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
         """Take up the games that wait, and beat for as long as the block lasts."""
-        await run_in_threadpool(self._begin)
+        await self._context.run_aside(self._begin)
         task = asyncio.create_task(self._run())
         try:
             yield
@@ -44,7 +42,10 @@ class Heartbeat:
             task.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await task
-            await run_in_threadpool(self._leave)
+            try:
+                await self._context.run_aside(self._leave)
+            except Unavailable:
+                log.warning("the last heartbeat could not be left: the database does not answer")
 
     def _begin(self) -> None:
         """The first process at work on the database takes up the games; whoever else starts now waits until it has."""
@@ -55,10 +56,13 @@ class Heartbeat:
         membership.settle()
 
     def _leave(self) -> None:
-        beat(self._context, self._process, stopped=True)
-        self._context.database.membership.leave()
+        try:
+            beat(self._context, self._process, stopped=True)
+        finally:
+            self._context.database.membership.leave()
 
     def _beat(self) -> None:
+        self._context.database.membership.renew()
         self._context.time.adjust()
         beat(self._context, self._process)
 
@@ -66,7 +70,9 @@ class Heartbeat:
         while True:
             await asyncio.sleep(self._period)
             try:
-                await run_in_threadpool(self._beat)
+                await self._context.run_aside(self._beat)
+            except Unavailable:
+                log.warning("no heartbeat: the database does not answer; the next is due in %g s", self._period)
             except Exception:
                 log.exception("no heartbeat; the next is due in %g s", self._period)
 
@@ -79,12 +85,34 @@ def begin(context: Context, process: str, *, alone: bool) -> None:
             _take_up_games(writing, writing.now if last is None else min(last, writing.now))
             writing.connection.execute(delete(heartbeats))
         _beat(writing, process, stopped=False)
+    context.pulse.felt(writing.now)
 
 
 def beat(context: Context, process: str, *, stopped: bool = False) -> None:
-    """One more heartbeat."""
+    """One more heartbeat; the first after an outage of the database gives back the time since the last."""
     with context.writing() as writing:
+        if not stopped:
+            _make_up_for_outage(writing)
         _beat(writing, process, stopped)
+    context.pulse.felt(writing.now)
+
+
+def _make_up_for_outage(writing: Writing) -> None:
+    """When nobody left a heartbeat for long nobody could play: of several processes the first that can sees to it."""
+    if _last_before_outage(writing) is None:
+        return
+    only_one(writing.connection, "outage")
+    last = _last_before_outage(writing)
+    if last is not None:
+        log.warning("no heartbeats for %.1f s; games go on from the last", (writing.now - last) / SECOND_NS)
+        _take_up_games(writing, last)
+
+
+def _last_before_outage(writing: Writing) -> int | None:
+    """The last heartbeat of anybody, if it is too long ago."""
+    last = writing.connection.scalar(select(func.max(heartbeats.c.beat_at)))
+    gone = last is not None and writing.now - last > writing.context.pulse.longest_gap
+    return int(last) if gone else None
 
 
 def _beat(writing: Writing, process: str, stopped: bool) -> None:
@@ -101,7 +129,7 @@ def _beat(writing: Writing, process: str, stopped: bool) -> None:
 
 def is_clear(connection: Connection, context: Context, deadline: int) -> bool:
     """Whether no process that is alive may still be at work on a request that was complete before the deadline."""
-    since = context.time.now() - nanoseconds(MISSED_BEATS * context.settings.heartbeat_period)
+    since = context.time.now() - context.pulse.longest_gap
     alive = heartbeats.c.stopped.is_(False) & (heartbeats.c.beat_at > since)
     behind = select(heartbeats.c.process).where(alive, heartbeats.c.clear_until < deadline).limit(1)
     return connection.execute(behind).first() is None
@@ -110,7 +138,11 @@ def is_clear(connection: Connection, context: Context, deadline: int) -> bool:
 def _take_up_games(writing: Writing, last: int) -> None:
     """Charge every running turn up to the last heartbeat; it is to be fetched anew."""
     for game_id in writing.connection.scalars(select(games.c.id).where(games.c.status == RUNNING)).all():
+        hold_match_of(writing.connection, game_id)
         live = find(writing.connection, game_id)
+        if not live.is_running:
+            continue
         carried = turn_clock.carried_on(live, live.running_for(last))
         turn = turn_clock.available(writing, carried)
         writing.connection.execute(update(games).where(games.c.id == game_id).values(turn))
+        writing.woken.update(live.agents)

@@ -12,6 +12,7 @@ from collections.abc import AsyncIterator
 
 from starlette.concurrency import run_in_threadpool
 
+from server.errors import Unavailable
 from server.services import house
 from server.services.context import Context
 from server.services.house import HouseBot
@@ -80,6 +81,8 @@ class House:
                 token = await run_in_threadpool(house.take, self._context, agent_id, self._holder)
                 if token is not None:
                     await self._run(bot, agent_id, {"POOLIAD_URL": url, "POOLIAD_TOKEN": token})
+            except Unavailable:
+                log.warning("house bot %s waits: the database does not answer", bot.name)
             except Exception:
                 log.exception("house bot %s cannot be run; it is tried again", bot.name)
             await asyncio.sleep(RENEW_EVERY)
@@ -91,12 +94,19 @@ class House:
             started = loop.time()
             async with _process(bot, environment) as process:
                 while process.returncode is None:
-                    if not await run_in_threadpool(house.renew, self._context, agent_id, self._holder):
+                    if not await self._is_still_ours(agent_id):
                         return
                     await _ended(process, RENEW_EVERY)
             log.error("house bot %s left with exit code %s; it is started again", bot.name, process.returncode)
             pause = FIRST_PAUSE if loop.time() - started > STEADY else min(LONGEST_PAUSE, 2.0 * pause)
             await asyncio.sleep(pause)
+
+    async def _is_still_ours(self, agent_id: str) -> bool:
+        """Whether no other process has taken the bot; nobody can while the database does not answer."""
+        try:
+            return await run_in_threadpool(house.renew, self._context, agent_id, self._holder)
+        except Unavailable:
+            return True
 
     async def _accept(self) -> None:
         """Take up the challenges that had to wait for a place."""
@@ -104,6 +114,8 @@ class House:
             await asyncio.sleep(LOOK_EVERY)
             try:
                 await run_in_threadpool(accept_waiting, self._context)
+            except Unavailable:
+                continue
             except Exception:
                 log.exception("waiting challenges could not be looked at; they are looked at again")
 

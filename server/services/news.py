@@ -8,7 +8,6 @@ from typing import Any, Final, NamedTuple
 from fastapi.sse import format_sse_event
 from sqlalchemy import Connection, Row, Select, func, select
 
-from referee.play import nanoseconds
 from referee.wire import GameAnswer, StreamClocks, StreamConnections, StreamResult, of_many
 from server.services.context import Context
 from server.services.live import LiveGame, find
@@ -16,8 +15,6 @@ from server.services.match_views import summary
 from server.store.tables import games, heartbeats, matches, moves
 
 RESULT: Final = "result"
-BEATS: Final = 3
-"""Heartbeats a process may miss before its word on who is there is no longer taken."""
 
 
 @dataclass(frozen=True)
@@ -144,7 +141,7 @@ def _here(context: Context, connection: Connection) -> frozenset[str]:
     here = context.presence.here(now)
     if not context.database.is_shared:
         return here
-    fresh = heartbeats.c.beat_at > now - nanoseconds(BEATS * context.settings.heartbeat_period)
+    fresh = heartbeats.c.beat_at > now - context.pulse.longest_gap
     return here.union(*connection.scalars(select(heartbeats.c.present).where(fresh, ~heartbeats.c.stopped)))
 
 

@@ -11,7 +11,7 @@ from sqlalchemy import Connection, Row, select, update
 
 from referee.play.clock import SECOND_NS
 from referee.wire import ClientSeedRequest
-from server.errors import Forbidden, WrongStatus
+from server.errors import Forbidden, Unavailable, WrongStatus
 from server.services import draws, games, match_views, notices
 from server.services.commands import Answer, Command, once, parse
 from server.services.context import Context, Writing
@@ -51,6 +51,8 @@ def begin_due(context: Context) -> None:
     for match_id in waited:
         try:
             _begin_late(context, match_id)
+        except Unavailable:
+            raise
         except Exception:
             log.exception("match %s could not begin; the timer goes on with the others", match_id)
 

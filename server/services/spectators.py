@@ -12,6 +12,7 @@ from collections.abc import AsyncIterator, Iterable, Sequence
 
 from starlette.concurrency import run_in_threadpool
 
+from server.errors import Unavailable
 from server.services.context import Context
 from server.services.news import RESULT, News, Standing, opening, since
 from server.services.wakeups import EVERYBODY
@@ -151,6 +152,8 @@ class Spectators:
             self._hint.clear()
             try:
                 await self._look()
+            except Unavailable:
+                log.warning("the spectators wait: the database does not answer")
             except Exception:
                 log.exception("looking for news failed; the spectators wait for the next look")
             await asyncio.sleep(BREATH)

@@ -56,6 +56,7 @@ class _Asked:
 
 
 def _act(context: Context, game_id: str, command: Command, read: Callable[[], _Asked]) -> Answer:
+    context.pulse.require(context.time.now())
     with context.database.reading() as connection:
         _limit_others(context, connection, game_id, command.caller)
         live = find(connection, game_id)

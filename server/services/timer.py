@@ -5,11 +5,12 @@ import contextlib
 import logging
 from collections.abc import AsyncIterator
 from dataclasses import replace
+from functools import partial
 
 from sqlalchemy import select
-from starlette.concurrency import run_in_threadpool
 
 from referee.game import EndReason
+from server.errors import Unavailable
 from server.services import games as course
 from server.services import heartbeat, turn_clock
 from server.services.context import Context
@@ -42,21 +43,30 @@ class Timer:
         while True:
             await asyncio.sleep(self._context.settings.timer_period)
             try:
-                await run_in_threadpool(begin_due, self._context)
-                await run_in_threadpool(flag, self._context)
+                await self._context.run_aside(partial(begin_due, self._context))
+                await self._context.run_aside(partial(flag, self._context))
+            except Unavailable:
+                continue  # the heartbeat says so
             except Exception:
                 log.exception("the timer failed; it goes on")
 
 
 def flag(context: Context) -> None:
-    """End every game whose mover is out of time; exactly zero left is out."""
+    """End every game whose mover is out of time; exactly zero left is out.
+
+    Not after an outage of the database whose time has not been given back yet.
+    """
     now = context.time.now()
+    if context.pulse.is_lost(now):
+        return
     due = select(games.c.id).where(games.c.deadline <= now)
     with context.database.reading() as connection:
         late = connection.scalars(due).all()
     for game_id in late:
         try:
             _flag(context, game_id, now)
+        except Unavailable:
+            raise
         except Exception:
             log.exception("game %s could not be ended; the timer goes on with the others", game_id)
 

@@ -11,30 +11,33 @@ from contextlib import AbstractContextManager, contextmanager
 
 from sqlalchemy import Connection
 
-from server.store import postgresql, sqlite
+from server.store import outages, postgresql, sqlite
 from server.store.membership import AloneMembership, Membership, SharedMembership
 
 
 class Database:
-    """One database by its URL.
+    """One database by its URL; nobody waits for it longer than so many seconds.
 
     Attributes:
         is_shared: whether several server processes may work on it at once.
         membership: which of them are there.
     """
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, wait: float = outages.WAIT_SECONDS) -> None:
         self.url = url
         self.is_shared = postgresql.is_ours(url)
-        self._engine = (postgresql if self.is_shared else sqlite).engine(url)
+        self._engine = (postgresql if self.is_shared else sqlite).engine(url, wait)
         self._reader = self._engine.execution_options(**postgresql.READING) if self.is_shared else self._engine
-        self._writer: AbstractContextManager[object] = contextlib.nullcontext() if self.is_shared else threading.Lock()
+        self._writer: AbstractContextManager[None] = contextlib.nullcontext() if self.is_shared else _WritersPlace(wait)
         self.membership: Membership = SharedMembership(self._engine) if self.is_shared else AloneMembership(url)
 
     @contextmanager
     def reading(self) -> Iterator[Connection]:
-        """A connection for a consistent look; writing through it is an error of the program."""
-        with self._reader.connect() as connection:
+        """A connection for a consistent look; writing through it is an error of the program.
+
+        Raises `Unavailable` when the database does not answer, as everything here does.
+        """
+        with outages.told(), self._reader.connect() as connection:
             yield connection
 
     @contextmanager
@@ -43,16 +46,30 @@ class Database:
 
         On SQLite, threads of this process queue on a lock rather than on the library's sleeping retries.
         """
-        with self._writer, self._engine.connect() as connection:
+        with outages.told(), self._writer, self._engine.connect() as connection:
             writing = connection.execution_options(**sqlite.WRITING)
             with writing.begin():
                 yield writing
 
     def clock(self) -> int:
         """The time by the database's own clock, ns since 1970; for several processes that share it."""
-        with self._engine.connect() as connection:
+        with outages.told(), self._engine.connect() as connection:
             return int(connection.exec_driver_sql(postgresql.CLOCK).scalar_one())
 
     def dispose(self) -> None:
         """Close every connection."""
         self._engine.dispose()
+
+
+class _WritersPlace:
+    """A lock on which nobody waits for ever: behind a writer that is stuck everybody is told so."""
+
+    def __init__(self, wait: float) -> None:
+        self._lock, self._wait = threading.Lock(), wait
+
+    def __enter__(self) -> None:
+        if not self._lock.acquire(timeout=self._wait):
+            raise outages.unavailable()
+
+    def __exit__(self, *_: object) -> None:
+        self._lock.release()

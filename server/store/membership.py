@@ -9,12 +9,15 @@ import os
 from typing import Final, Protocol
 
 from sqlalchemy import Connection, Engine, text
+from sqlalchemy.exc import DBAPIError
 
 from server.errors import SettingsError
+from server.store import outages
 from server.store.sqlite import path_of
 
 SERVING: Final = 0x706F6F6C
 """The key of the advisory lock that every server process shares ("pool")."""
+SHARE: Final = "SELECT pg_advisory_lock_shared(:key)"
 
 
 class Membership(Protocol):
@@ -25,6 +28,9 @@ class Membership(Protocol):
 
     def settle(self) -> None:
         """Let others in: what only the first process does is done."""
+
+    def renew(self) -> None:
+        """Take the place again if it was lost with the connection; raises `Unavailable` when it cannot be had."""
 
     @property
     def is_alone(self) -> bool:
@@ -64,6 +70,9 @@ class AloneMembership:
     def settle(self) -> None:
         """Nobody else comes in."""
 
+    def renew(self) -> None:
+        """The lock is this process's until it ends."""
+
     def leave(self) -> None:
         """Let go of the lock; the file stays, for taking it away could take another's."""
         if self._file is not None:
@@ -86,16 +95,29 @@ class SharedMembership:
         """Take the lock: alone if nobody has it, else shared."""
         if self._connection is not None:
             return
-        self._connection = self._engine.connect().execution_options(isolation_level="AUTOCOMMIT")
-        self.is_alone = bool(self._ask("SELECT pg_try_advisory_lock(:key)"))
-        if not self.is_alone:
-            self._ask("SELECT pg_advisory_lock_shared(:key)")
+        with outages.told():
+            self._connect()
+            self.is_alone = bool(self._ask("SELECT pg_try_advisory_lock(:key)"))
+            if not self.is_alone:
+                self._ask(SHARE)
 
     def settle(self) -> None:
         """Share the lock that was held alone."""
         if self.is_alone:
-            self._ask("SELECT pg_advisory_lock_shared(:key)")
+            self._ask(SHARE)
             self._ask("SELECT pg_advisory_unlock(:key)")
+
+    def renew(self) -> None:
+        """Share the lock again when its connection is gone; who starts meanwhile alone is waited for."""
+        with outages.told():
+            if self._is_connected():
+                return
+            try:
+                self._connect()
+                self._ask(SHARE)
+            except DBAPIError:
+                self.leave()
+                raise
 
     def leave(self) -> None:
         """End the session, and with it every lock."""
@@ -103,6 +125,20 @@ class SharedMembership:
             self._connection.invalidate()
             self._connection.close()
             self._connection = None
+
+    def _is_connected(self) -> bool:
+        """Whether the session that holds the lock is still there."""
+        if self._connection is None:
+            return False
+        try:
+            self._connection.exec_driver_sql("SELECT 1")
+        except DBAPIError:
+            self.leave()
+        return self._connection is not None
+
+    def _connect(self) -> None:
+        self._connection = self._engine.connect().execution_options(isolation_level="AUTOCOMMIT")
+        self._connection.exec_driver_sql("SET lock_timeout = 0")  # who is first may take long: it migrates
 
     def _ask(self, statement: str) -> object:
         assert self._connection is not None

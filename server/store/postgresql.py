@@ -1,8 +1,10 @@
 """PostgreSQL, by psycopg 3: several server processes on one database."""
 
+import math
+from functools import partial
 from typing import Any, Final
 
-from sqlalchemy import Engine, create_engine
+from sqlalchemy import Engine, create_engine, event
 from sqlalchemy.engine import make_url
 
 SCHEME = "postgresql://"
@@ -16,18 +18,44 @@ READING: Final[dict[str, Any]] = {"isolation_level": "REPEATABLE READ", "postgre
 CLOCK: Final = "SELECT (extract(epoch FROM clock_timestamp()) * 1000000000)::bigint"
 """Nanoseconds since 1970, when the statement runs and not when its transaction began."""
 
+ATTENTIVE: Final = {
+    "connect_timeout": "5",
+    "tcp_user_timeout": "5000",
+    "keepalives_idle": "5",
+    "keepalives_interval": "2",
+    "keepalives_count": "3",
+}
+"""Parameters of libpq by which a machine that has vanished is noticed within seconds, not hours."""
+
 
 def is_ours(url: str) -> bool:
     """Whether the URL names a PostgreSQL database."""
     return url.startswith(SCHEME)
 
 
-def engine(url: str) -> Engine:
-    """The connections of a database, READ COMMITTED: a statement after a lock sees what was written before it."""
-    address = make_url(url).set(drivername="postgresql+psycopg")
-    return create_engine(address, pool_size=POOL_SIZE, max_overflow=POOL_OVERFLOW, isolation_level="READ COMMITTED")
+def engine(url: str, wait: float) -> Engine:
+    """The connections of a database, READ COMMITTED: a statement after a lock sees what was written before it.
+
+    Nobody waits longer than so many seconds for a connection, or for a lock behind a transaction that is stuck.
+    """
+    made = create_engine(
+        make_url(driver_url(url)).set(drivername="postgresql+psycopg"),
+        pool_size=POOL_SIZE,
+        max_overflow=POOL_OVERFLOW,
+        pool_timeout=wait,
+        isolation_level="READ COMMITTED",
+    )
+    event.listen(made, "connect", partial(_bound_waits, wait))
+    return made
 
 
 def driver_url(url: str) -> str:
-    """The same address for psycopg without SQLAlchemy."""
-    return make_url(url).set(drivername="postgresql").render_as_string(hide_password=False)
+    """The address for psycopg: attentive, unless it says otherwise itself."""
+    address = make_url(url)
+    told = {name: value for name, value in ATTENTIVE.items() if name not in address.query}
+    return address.update_query_dict(told).set(drivername="postgresql").render_as_string(hide_password=False)
+
+
+def _bound_waits(wait: float, connection: Any, _record: object) -> None:
+    connection.execute(f"SET lock_timeout = {math.ceil(1000 * wait)}")
+    connection.commit()

@@ -1,12 +1,11 @@
 """SQLite: in WAL mode, flushed at every commit; one server process."""
 
+from functools import partial
 from typing import Any
 
 from sqlalchemy import Connection, Engine, create_engine, event
 
 SCHEME = "sqlite:///"
-BUSY_MILLISECONDS = 10_000
-"""How long a writer waits for another *process* holding the database (a backup) before it gives up."""
 POOL_SIZE = 8
 POOL_OVERFLOW = 56
 """Together more than the 40 threads that serve requests, so that nobody waits for a connection."""
@@ -14,10 +13,10 @@ WRITING = {"pooliad_writes": True}
 """Options of a connection that takes the writer's place with its first statement."""
 
 
-def engine(url: str) -> Engine:
-    """The connections of a file."""
+def engine(url: str, wait: float) -> Engine:
+    """The connections of a file; a writer waits so many seconds for another *process* that writes."""
     made = create_engine(url, pool_size=POOL_SIZE, max_overflow=POOL_OVERFLOW)
-    event.listen(made, "connect", _set_pragmas)
+    event.listen(made, "connect", partial(_set_pragmas, wait))
     event.listen(made, "begin", _begin)
     return made
 
@@ -27,10 +26,10 @@ def path_of(url: str) -> str:
     return url.removeprefix(SCHEME)
 
 
-def _set_pragmas(connection: Any, _record: object) -> None:
+def _set_pragmas(wait: float, connection: Any, _record: object) -> None:
     connection.isolation_level = None  # the driver's own BEGIN comes too late for a compare-and-set
     for pragma in (
-        f"busy_timeout = {BUSY_MILLISECONDS}",
+        f"busy_timeout = {1000 * wait:.0f}",
         "journal_mode = WAL",
         "synchronous = FULL",
         "foreign_keys = ON",

@@ -15,7 +15,7 @@ from referee.record import this_engine
 from server.errors import Draining
 from server.ops.logs import REQUEST, JsonLines
 from server.ops.metrics import Metrics
-from server.routes.health import readyz
+from server.routes.health import readiness
 from server.services import warmup
 from server.settings import settable
 
@@ -156,7 +156,7 @@ def test_physics_that_contradicts_itself_is_not_ready(tmp_path, monkeypatch, cap
     warmup.start(stage.context)
     assert stage.context.warm_up_failed.wait(30)
     with pytest.raises(Draining):
-        readyz(stage.context)
+        readiness(stage.context)
     assert "two answers" in caplog.text
     stage.close()
 

@@ -13,7 +13,7 @@ from alembic.autogenerate import compare_metadata
 from alembic.runtime.migration import MigrationContext
 
 from server.errors import Draining, SettingsError
-from server.routes.health import readyz
+from server.routes.health import readiness
 from server.serve import listening
 from server.services import warmup
 from server.services.context import Context
@@ -163,7 +163,7 @@ def test_kernels_that_cannot_be_loaded_are_logged_and_reported(tmp_path, monkeyp
     assert not context.warm.is_set()
     assert "no space for the kernels" in caplog.text
     with pytest.raises(Draining, match="could not be loaded"):
-        readyz(context)
+        readiness(context)
     context.database.dispose()
 
 

@@ -46,9 +46,35 @@ def identity() -> dict[str, Any]:
 class Cluster:
     """A running PostgreSQL."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, command: list[str], where: dict[str, Any]) -> None:
         self.folder = folder
         self._made = 0
+        self._command, self._where = command, where
+        self.start()
+
+    def start(self) -> None:
+        """Start, and wait until it answers."""
+        with (self.folder / "log").open("ab") as log:
+            self._process = subprocess.Popen(self._command, stderr=log, **self._where)
+        end = time.monotonic() + STARTS_WITHIN
+        while True:
+            try:
+                psycopg.connect(self.url("postgres")).close()
+            except psycopg.OperationalError:
+                if time.monotonic() > end:
+                    raise
+                time.sleep(0.05)
+            else:
+                return
+
+    def stop(self) -> None:
+        """SIGINT is PostgreSQL's fast shutdown; it does not wait for connections that are open."""
+        self._process.send_signal(signal.SIGINT)
+        try:
+            self._process.wait(20)
+        except subprocess.TimeoutExpired:
+            self._process.send_signal(signal.SIGQUIT)
+            self._process.wait(20)
 
     def url(self, name: str) -> str:
         """The address of a database here."""
@@ -77,35 +103,10 @@ def cluster(durable: bool = False) -> Iterator[Cluster]:
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL, **where)
         safe = [] if durable else ["-c", "fsync=off"]
         serve = [postgres, "-D", f"{folder}/data", "-k", str(folder), "-c", "listen_addresses=", *safe]
-        with (folder / "log").open("wb") as log, subprocess.Popen(serve, stderr=log, **where) as process:
-            made = Cluster(folder)
-            try:
-                _wait_for(made)
-                yield made
-            finally:
-                _end(process)
+        made = Cluster(folder, serve, where)
+        try:
+            yield made
+        finally:
+            made.stop()
     finally:
         shutil.rmtree(folder, ignore_errors=True)
-
-
-def _wait_for(made: Cluster) -> None:
-    end = time.monotonic() + STARTS_WITHIN
-    while True:
-        try:
-            psycopg.connect(made.url("postgres")).close()
-        except psycopg.OperationalError:
-            if time.monotonic() > end:
-                raise
-            time.sleep(0.05)
-        else:
-            return
-
-
-def _end(process: "subprocess.Popen[bytes]") -> None:
-    """SIGINT is PostgreSQL's fast shutdown; it does not wait for connections that tests left open."""
-    process.send_signal(signal.SIGINT)
-    try:
-        process.wait(20)
-    except subprocess.TimeoutExpired:
-        process.send_signal(signal.SIGQUIT)
-        process.wait(20)

@@ -1,0 +1,37 @@
+"""Whether this process's signs of life reach the database: without them no clock may cost anybody a game."""
+
+from typing import Final
+
+from server.store.outages import unavailable
+
+MISSED_BEATS: Final = 3
+"""Heartbeats that may be missed. Then a process is dead for the others; what it had in hand is lost, and its players
+send it again. For itself its database is gone."""
+
+
+class Pulse:
+    """The last heartbeat that was stored.
+
+    Args:
+        period: nanoseconds between two heartbeats.
+    """
+
+    def __init__(self, period: int) -> None:
+        self.longest_gap: Final = MISSED_BEATS * period
+        self._last: int | None = None
+
+    def felt(self, now: int) -> None:
+        """A heartbeat was stored."""
+        self._last = now
+
+    def is_lost(self, now: int) -> bool:
+        """Whether too many heartbeats are missing; before the first none is."""
+        return self._last is not None and now - self._last > self.longest_gap
+
+    def require(self, now: int) -> None:
+        """Raise `Unavailable` when the pulse is lost.
+
+        The database may be back already, but nobody has been given back the time that it was away.
+        """
+        if self.is_lost(now):
+            raise unavailable()

@@ -1,0 +1,55 @@
+"""A database that does not answer (lost, locked for long, full) is told apart from a fault of the program."""
+
+import logging
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Final
+
+from sqlalchemy import exc
+
+from server.errors import Unavailable
+
+log = logging.getLogger("pooliad.server.store")
+
+WAIT_SECONDS: Final = 5.0
+"""How long anything waits for a connection, a lock or the writer's place before it gives up, unless told."""
+
+_PASSING: Final = frozenset(
+    {
+        sqlite3.SQLITE_BUSY,
+        sqlite3.SQLITE_LOCKED,
+        sqlite3.SQLITE_IOERR,
+        sqlite3.SQLITE_FULL,
+        sqlite3.SQLITE_CANTOPEN,
+        sqlite3.SQLITE_PROTOCOL,
+    }
+)
+_PRIMARY: Final = 0xFF
+"""The bits of SQLite's code that say what kind of failure it is (https://sqlite.org/rescode.html)."""
+
+
+@contextmanager
+def told() -> Iterator[None]:
+    """Raise `Unavailable` where the database does not answer; why is for the log alone."""
+    try:
+        yield
+    except (exc.DBAPIError, exc.TimeoutError) as error:
+        if not _is_outage(error):
+            raise
+        log.warning("the database does not answer: %s", error.orig if isinstance(error, exc.DBAPIError) else error)
+        raise unavailable() from error
+
+
+def unavailable() -> Unavailable:
+    """What callers are told, whatever the reason: a commit may have been the last thing that was heard of."""
+    return Unavailable("the database does not answer; send the same request again, with the same Idempotency-Key")
+
+
+def _is_outage(error: exc.DBAPIError | exc.TimeoutError) -> bool:
+    """PostgreSQL's operational errors are about its operation; SQLite's include mistakes in a statement."""
+    if isinstance(error, exc.TimeoutError) or error.connection_invalidated:
+        return True
+    if isinstance(error.orig, sqlite3.Error):
+        return getattr(error.orig, "sqlite_errorcode", 0) & _PRIMARY in _PASSING
+    return isinstance(error, exc.OperationalError)
