@@ -3,12 +3,13 @@
 import dataclasses
 
 import numpy as np
+from numpy.typing import NDArray
 
-from physics.constants import BALL_RADIUS, CUSHION_NAMES
+from physics.constants import BALL_RADIUS, CUSHION_NAMES, N_BALLS
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
 from physics.parameters import parameters
-from physics.shot import Shot
+from physics.shot import FIELDS, Shot
 from physics.simulation import checked_positions
 from physics.state import TableState
 from physics.status import Status
@@ -68,6 +69,36 @@ def min_elevation(table: Table, state: TableState, phi: float, a: float = 0.0, b
     if not table.cue_test:
         return 0.0
     return float(kernels().elevation_needed(parameters(table), *workspace(), positions, shot.phi, shot.a, shot.b))
+
+
+def min_elevations(
+    table: Table,
+    positions: NDArray[np.float64],
+    phi: NDArray[np.float64],
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """``min_elevation`` of a stroke on each of n tables that are known to be valid, (n,) deg.
+
+    Args:
+        positions: (n, 16, 2) float64 m, C-contiguous. phi: (n,) deg. a, b: (n,) mm, on the ball.
+    """
+    if not table.cue_test:
+        return np.zeros(len(positions))
+    find, row, work = kernels().elevation_needed, parameters(table), workspace()
+    flat, columns = positions.reshape(-1, 1, 2 * N_BALLS), zip(phi.tolist(), a.tolist(), b.tolist(), strict=True)
+    return np.array([find(row, *work, one, *column) for one, column in zip(flat, columns, strict=True)])
+
+
+def are_playable(table: Table, positions: NDArray[np.float64], shots: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether ``check`` finds nothing against a stroke on each of n tables that are known to be valid, (n,).
+
+    Args:
+        positions: (n, 16, 2) float64 m, shots: (n, 5) float64; both C-contiguous.
+    """
+    test, row, work = kernels().check_shot, parameters(table), workspace()
+    flat, strokes = positions.reshape(-1, 1, 2 * N_BALLS), shots.reshape(-1, 1, len(FIELDS))
+    return np.array([test(row, *work, one, shot)[0] == Status.AT_REST for one, shot in zip(flat, strokes, strict=True)])
 
 
 def _obstacle_name(number: int) -> str:

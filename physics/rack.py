@@ -102,7 +102,8 @@ def _jittered(places: NDArray[np.float64], sigma: float, diameter: float, stream
 
 def _are_clear(places: NDArray[np.float64], diameter: float) -> bool:
     dx, dy = (places[:, None, :] - places[None, :, :]).transpose(2, 0, 1)
-    squared = (dx * dx + dy * dy)[np.triu_indices(len(places), 1)]
+    squared = dx * dx + dy * dy
+    np.fill_diagonal(squared, math.inf)
     return bool((squared > diameter * diameter).all())
 
 

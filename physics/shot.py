@@ -78,6 +78,8 @@ class Shot:
 
 def _finite(name: str, value: Any) -> float:
     """Return ``value`` as a float; raise InvalidShot unless it is a finite real number."""
+    if type(value) is float and math.isfinite(value):
+        return value
     number = math.nan
     if not isinstance(value, bool) and isinstance(value, numbers.Real):
         with contextlib.suppress(OverflowError):

@@ -11,6 +11,8 @@ from physics.errors import InvalidState
 from physics.table import Table
 
 _KEYS = tuple(str(ball) for ball in range(N_BALLS))
+_LEAST_SQUARED = (2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE) ** 2
+"""m^2, between the centres of two balls that do not overlap."""
 
 
 @final
@@ -95,7 +97,13 @@ class TableState:
         Raises:
             InvalidState: as for ``from_positions``.
         """
-        return self.from_positions(self._mapping() | {ball: position})
+        positions = self._positions + 0.0
+        positions[_number(ball, position)] = _point(ball, position) + 0.0
+        gap = positions - positions[ball]
+        squared = gap[:, 0] * gap[:, 0] + gap[:, 1] * gap[:, 1]
+        if np.count_nonzero(squared < _LEAST_SQUARED) > 1:  # it is at distance 0 of itself
+            _refuse_overlap(positions)
+        return self.trusted(positions)
 
     def removed(self, *balls: int) -> Self:
         """A copy without these balls."""
@@ -123,9 +131,6 @@ class TableState:
             positions[int(key)] = value
         return cls.from_positions(positions)
 
-    def _mapping(self) -> dict[int, ArrayLike]:
-        return {ball: self._positions[ball] for ball in self.balls}
-
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, TableState):
             return NotImplemented
@@ -144,16 +149,24 @@ class TableState:
 def _from_mapping(positions: Mapping[int, ArrayLike]) -> NDArray[np.float64]:
     array = np.full((N_BALLS, 2), np.nan)
     for ball, position in positions.items():
-        if isinstance(ball, bool) or not isinstance(ball, int | np.integer) or not 0 <= ball < N_BALLS:
-            raise InvalidState(f"positions[{ball!r}]", position, f"balls are numbered 0 to {N_BALLS - 1}")
-        try:
-            point = np.asarray(position, dtype=np.float64)
-        except (TypeError, ValueError):
-            point = np.empty(0)
-        if point.shape != (2,) or not np.isfinite(point).all():
-            raise InvalidState(f"positions[{ball}]", position, "must be two finite numbers (x, y) in metres")
-        array[ball] = point
+        array[_number(ball, position)] = _point(ball, position)
     return array
+
+
+def _number(ball: int, position: ArrayLike) -> int:
+    if isinstance(ball, bool) or not isinstance(ball, int | np.integer) or not 0 <= ball < N_BALLS:
+        raise InvalidState(f"positions[{ball!r}]", position, f"balls are numbered 0 to {N_BALLS - 1}")
+    return int(ball)
+
+
+def _point(ball: int, position: ArrayLike) -> NDArray[np.float64]:
+    try:
+        point = np.asarray(position, dtype=np.float64)
+    except (TypeError, ValueError):
+        point = np.empty(0)
+    if point.shape != (2,) or not np.isfinite(point).all():
+        raise InvalidState(f"positions[{ball}]", position, "must be two finite numbers (x, y) in metres")
+    return point
 
 
 def _from_array(positions: ArrayLike) -> NDArray[np.float64]:
@@ -173,8 +186,7 @@ def _from_array(positions: ArrayLike) -> NDArray[np.float64]:
 def _refuse_overlap(positions: NDArray[np.float64]) -> None:
     gap = positions[:, None, :] - positions[None, :, :]
     squared = gap[..., 0] * gap[..., 0] + gap[..., 1] * gap[..., 1]
-    least = 2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE
-    overlapping = np.argwhere(np.triu(squared < least * least, 1))
+    overlapping = np.argwhere(np.triu(squared < _LEAST_SQUARED, 1))
     if len(overlapping):
         first, second = overlapping[0].tolist()
         distance = float(squared[first, second]) ** 0.5

@@ -10,7 +10,7 @@ import json
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Any, Literal, Self, get_args
+from typing import Any, Literal, Self, get_args, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -156,19 +156,21 @@ class Table:
         mouths.flags.writeable = False
         return mouths
 
-    def contains(self, x: float, y: float) -> bool:
-        """Whether a ball's centre may lie at (x, y): on a cushion line it may, on a mouth line it may not.
+    @overload
+    def contains(self, x: float, y: float) -> bool: ...
+    @overload
+    def contains(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.bool_]: ...
+    def contains(self, x: Any, y: Any) -> Any:
+        """Whether a ball's centre may lie at (x, y), m: on a cushion line it may, on a mouth line it may not.
 
-        ``PLACEMENT_TOLERANCE`` off a cushion line counts as on it.
+        ``PLACEMENT_TOLERANCE`` off a cushion line counts as on it. Of arrays each pair is answered.
         """
         half_x, half_y = 0.5 * self.width, 0.5 * self.length
         side, end = abs(x - half_x), abs(y - half_y)
         radius, slack = self.ball_radius, constants.PLACEMENT_TOLERANCE
-        if not (side <= half_x - radius + slack and end <= half_y - radius + slack):
-            return False
-        in_side_mouth = side >= half_x - radius and end < 0.5 * self.side_mouth
-        in_corner_mouth = side + end >= half_x + half_y - self.corner_reach - radius
-        return not in_side_mouth and not in_corner_mouth
+        inside = (side <= half_x - radius + slack) & (end <= half_y - radius + slack)
+        beside_side_mouth = (side < half_x - radius) | (end >= 0.5 * self.side_mouth)
+        return inside & beside_side_mouth & (side + end < half_x + half_y - self.corner_reach - radius)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values by parameter name; ``from_dict`` reads them back."""

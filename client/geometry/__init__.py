@@ -6,13 +6,14 @@ Everything here is plane geometry on positions in metres and angles in degrees; 
 from client.geometry.aim import Point, azimuth, cut_angle, distance, ghost_ball
 from client.geometry.banks import Bank, bank, banks, kick
 from client.geometry.paths import blockers, is_clear
-from client.geometry.placement import is_free, lattice
+from client.geometry.placement import are_free, is_free, lattice
 from client.geometry.pots import Pot, pot, pots
 
 __all__ = [
     "Bank",
     "Point",
     "Pot",
+    "are_free",
     "azimuth",
     "bank",
     "banks",

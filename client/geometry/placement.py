@@ -1,14 +1,14 @@
 """Where a cue ball in hand may be put down (rules R37 and R40)."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from client.geometry.aim import Point
 from physics import Table, TableState
 
 CLEARANCE = 1e-6
-"""Metres. Touching another ball counts as overlap, so a place keeps this far off: wide of rounding, far
-below a shot's
-error."""
+"""Metres. Touching another ball counts as overlap, so a place keeps this far off: wide of rounding, far below a
+shot's error."""
 
 
 def is_free(table: Table, state: TableState, place: Point, kitchen: bool = False) -> bool:
@@ -16,11 +16,25 @@ def is_free(table: Table, state: TableState, place: Point, kitchen: bool = False
 
     With `kitchen` the place has to be behind the head string, strictly.
     """
-    if not table.contains(*place) or (kitchen and place[1] <= table.head_string):
-        return False
-    gap = state.positions[1:] - np.asarray(place)
+    places, behind = np.array([[place]], np.float64), np.array([kitchen])
+    return bool(are_free(table, state.positions[None], places, behind)[0, 0])
+
+
+def are_free(
+    table: Table, positions: NDArray[np.float64], places: NDArray[np.float64], kitchen: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """`is_free` for m places on each of n tables, (n, m).
+
+    Args:
+        positions: (n, 16, 2) m, of the balls. places: (n, m, 2) m; n may be 1 for the same on all.
+        kitchen: (n,) whether the places have to be behind the head string.
+    """
+    x, y = places[..., 0], places[..., 1]
+    allowed = table.contains(x, y) & ((y > table.head_string) | ~kitchen[:, None])
+    gap = positions[:, None, 1:, :] - places[:, :, None, :]
     least = 2.0 * table.ball_radius + CLEARANCE
-    return not bool(((gap * gap).sum(axis=1) < least * least).any())
+    free: NDArray[np.bool_] = allowed & ~((gap * gap).sum(axis=3) < least * least).any(axis=2)
+    return free
 
 
 def lattice(table: Table, state: TableState, columns: int, rows: int, kitchen: bool = False) -> list[Point]:
@@ -29,5 +43,6 @@ def lattice(table: Table, state: TableState, columns: int, rows: int, kitchen: b
     low = table.head_string + CLEARANCE if kitchen else radius
     xs = np.linspace(radius, table.width - radius, columns)
     ys = np.linspace(low, table.length - radius, rows)
-    places = [(float(x), float(y)) for y in ys for x in xs]
-    return [place for place in places if is_free(table, state, place, kitchen)]
+    places = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(1, -1, 2)
+    free = are_free(table, state.positions[None], places, np.array([kitchen]))
+    return [(x, y) for x, y in places[free].tolist()]

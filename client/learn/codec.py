@@ -4,29 +4,31 @@ Every vector in [-1, 1]^8 is a legal action: elevations count from the least tha
 way to the nearest free one, calls and decisions are chosen among those that are open.
 """
 
-import math
 from collections.abc import Sequence
-from typing import Final, Literal, TypeVar
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-import physics
-from client.geometry import Point, distance, is_free, lattice
-from physics import Shot, Table, TableState
+from client.geometry import are_free, lattice
+from physics import Table
 from physics.constants import N_BALLS, N_POCKETS, V_MAX
-from referee import SAFETY, Action, Call, CueBallArea, Decision, Game, Phase
-from referee.game import callable_balls, members
+from physics.cue import are_playable, min_elevations
+from referee import Action, CueBallArea, Decision, Game, Group, Phase
+from referee.play.batch import Strokes, groups_of_shooters
+from referee.rules.verdicts import SAFETY_CALL, target_balls
 
 Vector = NDArray[np.float32]
-T = TypeVar("T")
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
 ACTION_SIZE: Final = 8
 """Speed, direction, elevation, side, height, place x, place y, choice."""
 DECISIONS: Final = tuple(each for each in Decision if each is not Decision.CONCEDE)
 PHASES: Final = (Phase.BREAK, Phase.PLAY, Phase.DECISION)
 AREAS: Final = (None, CueBallArea.KITCHEN, CueBallArea.ANYWHERE)
-OBSERVATION_SIZE: Final = 3 * N_BALLS + len(PHASES) + len(AREAS) + 3 + len(DECISIONS) + 2
+GROUPS: Final = (None, Group.SOLIDS, Group.STRIPES)
+OBSERVATION_SIZE: Final = 3 * N_BALLS + len(PHASES) + len(AREAS) + len(GROUPS) + len(DECISIONS) + 2
 """Balls, phase, cue ball in hand, groups, decisions open, stalemate counter, strokes."""
 
 OFFSET: Final = 14.0
@@ -37,8 +39,16 @@ MARGIN: Final = 0.5
 """Degrees above the least elevation, for when the one asked for cannot be played."""
 TURNS: Final = 72
 """Directions tried, all round, when the cue is blocked at every elevation in the one asked for."""
-_SOLIDS_FIRST: Final = tuple(range(N_BALLS))
-_STRIPES_FIRST: Final = (0, *range(9, 16), 8, *range(1, 8))
+SPEED, DIRECTION, ELEVATION, SIDE, HEIGHT, PLACE_X, PLACE_Y, CHOICE = range(ACTION_SIZE)
+PHI, THETA = 1, 2
+"""Columns of a stroke."""
+_PHASE: Final = {each: tuple([each is phase for phase in PHASES]) for each in Phase}
+_AREA: Final = {each: tuple([each is area for area in AREAS]) for each in AREAS}
+_GROUP: Final = {each: tuple([each is group for group in GROUPS]) for each in GROUPS}
+_NO_DECISIONS: Final = (False,) * len(DECISIONS)
+"""What of an observation is one-hot, by value."""
+_ORDERS: Final = (tuple(range(N_BALLS)), (0, *range(9, 16), 8, *range(1, 8)))
+"""Balls as a player sees them who has solids or no group, and one who has stripes."""
 
 
 def observe(table: Table, game: Game, seat: int) -> Vector:
@@ -49,20 +59,27 @@ def observe(table: Table, game: Game, seat: int) -> Vector:
     placed, the groups (open, own solids, own stripes), the decisions open, and as shares of their limits the stalemate
     counter (24 visits) and the strokes (400).
     """
-    own = game.group_of(seat)
-    stripes = own is not None and 9 in members(own)
-    order = list(_STRIPES_FIRST if stripes else _SOLIDS_FIRST)
-    places = game.state.positions[order] / (table.width, table.length)
-    there = ~np.isnan(places[:, :1])
-    balls = np.hstack([np.where(there, np.clip(places, 0.0, 1.0), 0.0), there])
-    flags = [
-        *(game.phase is phase for phase in PHASES),
-        *(game.cue_ball_in_hand is area for area in AREAS),
-        *(own is None, own is not None and not stripes, stripes),
-        *(decision in game.decisions for decision in DECISIONS),
-    ]
-    counters = [min(1.0, game.dry_visits / 24.0), min(1.0, game.stroke / 400.0)]
-    return np.concatenate([balls.ravel(), np.array(flags, np.float64), counters]).astype(np.float32)
+    seen: Vector = observe_all(table, [game], [seat])[0]
+    return seen
+
+
+def observe_all(table: Table, games: Sequence[Game], seats: Sequence[int]) -> Vector:
+    """`observe` for each of n games with its seat, `(n, OBSERVATION_SIZE)`."""
+    own = [game.group_of(seat) for game, seat in zip(games, seats, strict=True)]
+    order = np.array(_ORDERS)[[int(group is Group.STRIPES) for group in own]]
+    positions = np.stack([game.state.positions for game in games])
+    places = np.take_along_axis(positions, order[:, :, None], axis=1) / (table.width, table.length)
+    there = ~np.isnan(places[:, :, :1])
+    balls = np.concatenate((np.where(there, np.clip(places, 0.0, 1.0), 0.0), there), axis=2)
+    state = [_state_of(game, group) for game, group in zip(games, own, strict=True)]
+    return np.concatenate((balls.reshape(len(games), -1), state), axis=1).astype(np.float32)
+
+
+def _state_of(game: Game, own: Group | None) -> tuple[float, ...]:
+    """What there is to know of a game beside the balls."""
+    decisions = tuple([decision in game.decisions for decision in DECISIONS]) if game.decisions else _NO_DECISIONS
+    counters = min(1.0, game.dry_visits / 24.0), min(1.0, game.stroke / 400.0)
+    return *_PHASE[game.phase], *_AREA[game.cue_ball_in_hand], *_GROUP[own], *decisions, *counters
 
 
 def act(table: Table, game: Game, vector: NDArray[np.floating]) -> Action:
@@ -71,63 +88,90 @@ def act(table: Table, game: Game, vector: NDArray[np.floating]) -> Action:
     Raises:
         ValueError: another shape, or a number that is none.
     """
-    shares = _shares(vector)
     if game.decisions:
-        return Action(decision=_pick(game.decisions, shares[7]))
-    place = None if game.cue_ball_in_hand is None else _place(table, game, shares)
-    before = game.state if place is None else game.state.moved(0, place)
-    call = None if game.phase is Phase.BREAK else _call(game, shares[7])
-    return Action(shot=_shot(table, before, shares), call=call, cue_ball=place)
+        share = _shares(np.asarray(vector)[None], 1)[0, CHOICE]
+        return Action(decision=game.decisions[min(int(share * len(game.decisions)), len(game.decisions) - 1)])
+    return strokes(table, [game], np.asarray(vector)[None]).action(0)
 
 
-def _shares(vector: NDArray[np.floating]) -> list[float]:
+def strokes(table: Table, games: Sequence[Game], vectors: NDArray[np.floating]) -> Strokes:
+    """The legal strokes that n vectors stand for, `(n, ACTION_SIZE)`, one in each of n games that await no decision.
+
+    Raises:
+        ValueError: as for `act`.
+    """
+    shares = _shares(vectors, len(games))
+    before = np.stack([game.state.positions for game in games])
+    _place_cue_balls(table, games, before, shares)
+    ball, pocket = _calls(games, before, shares[:, CHOICE])
+    return Strokes(games, before, _shots(table, before, shares), ball, pocket)
+
+
+def _shares(vectors: NDArray[np.floating], count: int) -> Floats:
     """The numbers as shares in [0, 1]."""
-    values = np.asarray(vector, dtype=np.float64)
-    if values.shape != (ACTION_SIZE,):
-        raise ValueError(f"an action has shape {values.shape}; it must be ({ACTION_SIZE},)")
+    values = np.asarray(vectors, dtype=np.float64)
+    if values.shape != (count, ACTION_SIZE):
+        raise ValueError(f"an action has shape {values.shape[1:]}; it must be ({ACTION_SIZE},)")
     if np.isnan(values).any():
-        raise ValueError(f"an action is {values.tolist()}; NaN is no number")
-    shares: list[float] = ((np.clip(values, -1.0, 1.0) + 1.0) * 0.5).tolist()
+        raise ValueError(f"an action is {values[np.isnan(values).any(axis=1)][0].tolist()}; NaN is no number")
+    shares: Floats = (np.clip(values, -1.0, 1.0) + 1.0) * 0.5
     return shares
 
 
-def _pick(choices: Sequence[T], share: float) -> T:
-    return choices[min(int(share * len(choices)), len(choices) - 1)]
-
-
-def _call(game: Game, share: float) -> Call | Literal["safety"]:
+def _calls(games: Sequence[Game], before: Floats, share: Floats) -> tuple[Integers, Integers]:
     """One of the balls that may be called with one of the pockets, or a safety: all in a row, each as wide."""
-    balls = callable_balls(game)
-    ball, pocket = divmod(_pick(range(len(balls) * N_POCKETS + 1), share), N_POCKETS)
-    return SAFETY if ball == len(balls) else Call(balls[ball], pocket)
-
-
-def _place(table: Table, game: Game, shares: list[float]) -> Point:
-    """The place asked for, or the nearest free one of a lattice."""
-    kitchen = game.cue_ball_in_hand is CueBallArea.KITCHEN
-    radius = table.ball_radius
-    low = table.head_string if kitchen else radius
-    wanted = (
-        radius + shares[5] * (table.width - 2.0 * radius),
-        low + shares[6] * (table.length - radius - low),
+    targets = target_balls(before, groups_of_shooters(games))
+    balls = targets.sum(axis=1)
+    rank, pocket = np.divmod(
+        np.minimum((share * (balls * N_POCKETS + 1)).astype(np.int64), balls * N_POCKETS), N_POCKETS
     )
-    if is_free(table, game.state, wanted, kitchen):
-        return wanted
-    free = lattice(table, game.state, *LATTICE, kitchen)
-    return min(free, key=lambda place: distance(place, wanted))
+    uncalled = (rank == balls) | np.array([game.phase is Phase.BREAK for game in games])
+    by_rank = np.argsort(~targets, axis=1, kind="stable")
+    ball = by_rank[np.arange(len(games)), np.minimum(rank, N_BALLS - 1)]
+    return np.where(uncalled, SAFETY_CALL, ball), np.where(uncalled, SAFETY_CALL, pocket)
 
 
-def _shot(table: Table, before: TableState, shares: list[float]) -> Shot:
-    """The stroke asked for, turned as far as need be for the cue to be free."""
-    a, b = (2.0 * shares[3] - 1.0) * OFFSET, (2.0 * shares[4] - 1.0) * OFFSET
+def _place_cue_balls(table: Table, games: Sequence[Game], before: Floats, shares: Floats) -> None:
+    """Where it is in hand, put it at the place asked for, or at the nearest free one of a lattice."""
+    rows = [row for row, game in enumerate(games) if game.cue_ball_in_hand is not None]
+    if not rows:
+        return
+    kitchen = np.array([games[row].cue_ball_in_hand is CueBallArea.KITCHEN for row in rows])
+    radius = table.ball_radius
+    low = np.where(kitchen, table.head_string, radius)
+    x = radius + shares[rows, PLACE_X] * (table.width - 2.0 * radius)
+    y = low + shares[rows, PLACE_Y] * (table.length - radius - low)
+    wanted = np.column_stack((x, y))
+    free = are_free(table, before[rows], wanted[:, None, :], kitchen)[:, 0]
+    for number in np.flatnonzero(~free).tolist():
+        places = np.array(lattice(table, games[rows[number]].state, *LATTICE, bool(kitchen[number])))
+        wanted[number] = places[np.hypot(*(places - wanted[number]).T).argmin()]
+    before[rows, 0] = wanted
+
+
+def _shots(table: Table, before: Floats, shares: Floats) -> Floats:
+    """The strokes asked for, (n, 5), turned as far as need be for the cue to be free."""
+    a, b = (2.0 * shares[:, SIDE] - 1.0) * OFFSET, (2.0 * shares[:, HEIGHT] - 1.0) * OFFSET
+    shots = np.column_stack((shares[:, SPEED] * V_MAX, np.zeros((len(shares), 2)), a, b))
+    left = np.arange(len(shares))
     for turn in range(TURNS):
-        phi = 360.0 * (shares[1] + turn / TURNS)
-        least = physics.min_elevation(table, before, phi, a, b)
-        if math.isnan(least):
-            continue
-        wanted = least + (table.theta_max - least) * shares[2] ** 2
-        for theta in (wanted, min(table.theta_max, least + MARGIN), least):
-            shot = Shot(v=shares[0] * V_MAX, phi=phi, theta=theta, a=a, b=b)
-            if physics.check(table, before, shot) is None:
-                return shot
-    raise ValueError(f"the cue is blocked in every direction: {before!r}")
+        shots[left, PHI] = 360.0 * (shares[left, DIRECTION] + turn / TURNS)
+        left = left[~_raise_cues(table, before, shots, left, shares[:, ELEVATION])]
+        if not len(left):
+            return shots
+    raise ValueError(f"the cue is blocked in every direction, the balls at {before[left[0]].tolist()}")
+
+
+def _raise_cues(table: Table, before: Floats, shots: Floats, rows: Integers, share: Floats) -> NDArray[np.bool_]:
+    """Elevate these strokes as asked for, or as little as can be; which of them can be played."""
+    _, phi, _, a, b = shots[rows].T
+    least = min_elevations(table, before[rows], phi, a, b)
+    wanted = least + (table.theta_max - least) * share[rows] ** 2
+    free = np.zeros(len(rows), np.bool_)
+    for theta in (wanted, np.minimum(table.theta_max, least + MARGIN), least):
+        tried = np.flatnonzero(~free & ~np.isnan(least))
+        if not len(tried):
+            break
+        shots[rows[tried], THETA] = theta[tried]
+        free[tried] = are_playable(table, before[rows[tried]], shots[rows[tried]])
+    return free

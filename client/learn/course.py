@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from physics import Table
-from referee import Action, EightBall, EndReason, Game, NoiseModel
+from referee import Action, EightBall, EndReason, Game, NoiseModel, Phase
 from referee.play import GameSeeds, Refused, play_stroke, start_game
 from referee.play.seeds import SEED_BYTES
 
@@ -38,6 +38,11 @@ class Course:
             self.forfeit()
             return
         self.game = stroke.game
+
+    def follow(self, game: Game) -> None:
+        """Go on with the game after a stroke, on the next rack if it awaits one."""
+        reracks = game.phase is Phase.RERACK
+        self.game = self.rules.rerack(game, self.seeds.rack(game.rack + 1)) if reracks else game
 
     def forfeit(self) -> None:
         """The player in turn loses the game."""

@@ -1,6 +1,7 @@
 """Many single-player games at once: their strokes go through the physics as one batch."""
 
 from collections.abc import Callable
+from itertools import compress
 from typing import Any
 
 import numpy as np
@@ -9,11 +10,11 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe
+from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe_all, strokes
 from client.learn.course import Course, referee_of, reward
 from physics import Table
+from physics.shot import FIELDS
 from referee import Game, NoiseModel
-from referee.play import Refused
 from referee.play.batch import play_strokes
 
 BatchPolicy = Callable[[Vector], Vector]
@@ -67,7 +68,7 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         """Play an action in every game, and the opponent's until it is the learner's turn in each, or it is over."""
         begun = np.flatnonzero(self._over).tolist()
         going = np.flatnonzero(~self._over).tolist()
-        self._play(going, [actions[row] for row in going])
+        self._play(going, np.asarray(actions)[going])
         self._begin(begun)
         self._opponent_plays(going)
         self._over = np.array([course.game.is_over for course in self._courses])
@@ -89,34 +90,36 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
     def _opponent_plays(self, rows: list[int]) -> None:
         """Until it is nowhere the opponent's turn."""
         while turns := [row for row in rows if self._is_opponents(row)]:
-            table = self._rules.table
-            seen = [observe(table, self._courses[row].game, 1 - int(self._seats[row])) for row in turns]
-            self._play(turns, self._opponent(np.stack(seen)))
+            games = [self._courses[row].game for row in turns]
+            seen = observe_all(self._rules.table, games, (1 - self._seats[turns]).tolist())
+            self._play(turns, self._opponent(seen))
 
     def _is_opponents(self, row: int) -> bool:
         game = self._courses[row].game
         return not game.is_over and game.turn != self._seats[row]
 
-    def _play(self, rows: list[int], vectors: "Vector | list[Vector]") -> None:
-        """One action in each of these games, as one batch; one that is refused forfeits its game."""
+    def _play(self, rows: list[int], vectors: Vector) -> None:
+        """One action in each of these games, the strokes as one batch."""
         courses = [self._courses[row] for row in rows]
-        games = [course.game for course in courses]
-        actions = [act(self._rules.table, game, vector) for game, vector in zip(games, vectors, strict=True)]
-        seeds = [course.seeds for course in courses]
-        played = play_strokes(self._rules, games, actions, seeds, self._noise, threads=self._threads)
-        for course, answer in zip(courses, played, strict=True):
-            if isinstance(answer, Refused):
-                course.forfeit()
-            else:
-                course.game = answer[1]
+        deciding = [bool(course.game.decisions) for course in courses]
+        for course, vector in compress(zip(courses, vectors, strict=True), deciding):
+            course.play(act(self._rules.table, course.game, vector))
+        striking = np.flatnonzero(~np.array(deciding, np.bool_)).tolist()
+        if not striking:
+            return
+        games = [courses[number].game for number in striking]
+        draws = self.np_random.standard_normal((len(games), len(FIELDS)))
+        asked = strokes(self._rules.table, games, vectors[striking])
+        after = play_strokes(self._rules, asked, self._noise, draws, threads=self._threads)
+        for number, game in zip(striking, after, strict=True):
+            courses[number].follow(game)
 
     def _at_random(self, observations: Vector) -> Vector:
         return self.np_random.uniform(-1.0, 1.0, (len(observations), ACTION_SIZE)).astype(np.float32)
 
     def _seen(self) -> Vector:
-        pairs = zip(self._courses, self._seats, strict=True)
-        return np.stack([observe(self._rules.table, course.game, int(seat)) for course, seat in pairs])
+        return observe_all(self._rules.table, [course.game for course in self._courses], self._seats.tolist())
 
     def _info(self) -> dict[str, Any]:
-        strokes = np.array([course.game.stroke for course in self._courses])
-        return {"seat": self._seats.copy(), "strokes": strokes}
+        strokes_played = np.array([course.game.stroke for course in self._courses])
+        return {"seat": self._seats.copy(), "strokes": strokes_played}

@@ -3,6 +3,9 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from physics.constants import THETA_MAX, V_MAX
 from physics.generator import SeededStream
 from physics.shot import Shot
@@ -66,6 +69,29 @@ class NoiseModel:
         phi = _mod_360(_mod_360(shot.phi) + self.level * SIGMA_PHI * stream.gaussian())
         v = shot.v + self.level * SIGMA_V * stream.gaussian()
         return Shot(v=_clamp(v, V_MAX), phi=phi, theta=_clamp(theta, THETA_MAX), a=a, b=b)
+
+    def perturb_rows(self, shots: NDArray[np.float64], draws: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Many shots as played, (n, 5), bit for bit what ``perturb`` makes of them with the same normal numbers.
+
+        Args:
+            shots: (n, 5) as intended, columns v, phi, theta, a, b.
+            draws: (n, 5) standard normal numbers for the same columns.
+        """
+        if self.level == 0.0:
+            return shots
+        v, phi, theta, a, b = shots.T
+        sigmas = self.level * np.array([SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B])
+        dv, dphi, dtheta, da, db = (sigmas * draws).T
+        phi = _mod_360_rows(_mod_360_rows(phi) + dphi)
+        v, theta = np.clip(v + dv, 0.0, V_MAX), np.clip(theta + dtheta, 0.0, THETA_MAX)
+        return np.column_stack((v, phi, theta, a + da, b + db))
+
+
+def _mod_360_rows(phi: NDArray[np.float64]) -> NDArray[np.float64]:
+    """``_mod_360`` of each."""
+    rest = np.fmod(phi, 360.0)
+    rest = np.where(rest < 0.0, rest + 360.0, rest)
+    return np.where(rest < 360.0, rest, 0.0)
 
 
 def _mod_360(phi: float) -> float:

@@ -108,32 +108,33 @@ def _go_on(
     area: CueBallArea | None = None,
 ) -> Game:
     """Play goes on: ``turn`` shoots next."""
-    return _next(stroke, turn, state, Phase.PLAY, groups=groups, area=area)
+    return next_game(stroke.game, turn, state, Phase.PLAY, bool(stroke.pocketed), groups=groups, area=area)
 
 
 def _ask(stroke: Stroke, choice: breaks.Choice, state: TableState) -> Game:
     """The break leaves a choice."""
-    return _next(stroke, choice.decider, state, Phase.DECISION, choice=choice)
+    return next_game(stroke.game, choice.decider, state, Phase.DECISION, bool(stroke.pocketed), choice=choice)
 
 
 def _end(stroke: Stroke, outcome: Outcome) -> Game:
     """The stroke decided the game."""
-    groups = stroke.game.groups
-    return _next(stroke, stroke.shooter, stroke.final, Phase.OVER, groups=groups, outcome=outcome)
+    game, pocketed = stroke.game, bool(stroke.pocketed)
+    return next_game(game, game.turn, stroke.final, Phase.OVER, pocketed, groups=game.groups, outcome=outcome)
 
 
-def _next(
-    stroke: Stroke,
+def next_game(
+    game: Game,
     turn: int,
     state: TableState,
     phase: Phase,
+    pocketed: bool,
     *,
     groups: tuple[Group, Group] | None = None,
     area: CueBallArea | None = None,
     choice: breaks.Choice | None = None,
     outcome: Outcome | None = None,
 ) -> Game:
-    game = stroke.game
+    """The game after one more stroke; ``pocketed`` says whether it pocketed an object ball."""
     return Game(
         state=state,
         phase=phase,
@@ -146,7 +147,7 @@ def _next(
         stroke=game.stroke + 1,
         rack=game.rack,
         visit_strokes=game.visit_strokes + 1 if turn == game.turn else 0,
-        dry_visits=dry_visits_after(stroke, turn),
+        dry_visits=dry_visits_after(game, turn, pocketed),
         replays=game.replays,
         outcome=outcome,
     )

@@ -4,7 +4,6 @@ from dataclasses import dataclass, fields, replace
 
 from referee.errors import InvalidGame
 from referee.game import EndReason, Game, Outcome, Phase
-from referee.rules.stroke import Stroke
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,15 +27,14 @@ class Limits:
                 raise InvalidGame(f"limits.{field.name}", value, f"an integer of at least {least}")
 
 
-def dry_visits_after(stroke: Stroke, turn: int) -> int:
+def dry_visits_after(game: Game, turn: int, pocketed: bool) -> int:
     """R49: consecutive finished visits without a pocketed object ball, fouls included, when ``turn`` is next.
 
     A scratch pockets no object ball. A visit of several strokes has pocketed one, or it would have ended.
     """
-    if stroke.pocketed:
+    if pocketed:
         return 0
-    first_of_visit = stroke.game.visit_strokes == 0
-    return stroke.game.dry_visits + (first_of_visit and turn != stroke.shooter)
+    return game.dry_visits + (game.visit_strokes == 0 and turn != game.turn)
 
 
 def stroke_limit(game: Game, limits: Limits) -> Game | None:

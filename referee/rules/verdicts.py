@@ -58,7 +58,7 @@ def read_verdicts(
     ball: NDArray[np.int64],
     pocket: NDArray[np.int64],
     batch: Batch,
-    kitchen: bool = False,
+    kitchen: bool | Flags = False,
 ) -> Verdicts:
     """Rule on strokes other than the break (R18 to R47), all counters (R49) aside.
 
@@ -67,14 +67,14 @@ def read_verdicts(
         group: (n,) the shooter's group before: -1 open, 0 solids, 1 stripes.
         ball, pocket: (n,) the calls; ball -1 is a safety.
         batch: what the strokes did, row by row.
-        kitchen: whether the cue ball was in hand behind the head string (R38).
+        kitchen: whether the cue ball was in hand behind the head string (R38); one answer for all, or (n,).
     """
     facts = batch.facts
     targets = target_balls(before, group)
     struck, down = facts["first_contact"] != NEVER, facts["pocketed"] != NEVER
     fouled = _fouls(facts, targets, struck, down)
-    if kitchen:
-        fouled |= _from_kitchen(facts, struck, before[:, :, 1] <= table.head_string)
+    if np.any(kitchen):
+        fouled |= kitchen & _from_kitchen(facts, struck, before[:, :, 1] <= table.head_string)
     made = _made(facts, ball, pocket, down)
     over = down[:, EIGHT] | (facts["off_table"][:, EIGHT] != NEVER)
     won = down[:, EIGHT] & targets[:, EIGHT] & (ball == EIGHT) & made & ~fouled

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from collections import Counter
 from importlib.util import find_spec
 
 import numpy as np
@@ -13,8 +14,9 @@ from support.situations import situation
 
 import physics
 from client.learn import ACTION_SIZE, OBSERVATION_SIZE, act, observe
-from referee import CueBallArea, EightBall, Group, MatchSeed, NoiseModel, Phase, play_stroke, start_game
-from referee.play import Refused
+from client.learn.codec import strokes
+from physics.generator import SeededStream
+from referee import CueBallArea, EightBall, Group, Limits, MatchSeed, NoiseModel, Phase, play_stroke, start_game
 from referee.play.batch import play_strokes
 from referee.rules.breaks import OFFERED
 
@@ -94,21 +96,43 @@ def test_what_is_no_action_is_named(vector):
         act(RULES.table, SCENES[1], vector)
 
 
-def test_a_batch_of_strokes_is_each_stroke_bit_for_bit():
-    """Strokes, decisions and refusals, of eight different games at once."""
-    chance = np.random.default_rng(5)
-    games = [scene for scene in SCENES for _ in range(6)]
-    seeds = [MatchSeed.of(number).game(0) for number in range(len(games))]
-    actions = [act(RULES.table, game, chance.uniform(-1, 1, ACTION_SIZE)) for game in games]
-    actions[0] = actions[-1]  # a decision where a stroke is due
-    played = play_strokes(RULES, games, actions, seeds, NoiseModel(1.0))
-    for game, action, seed, answer in zip(games, actions, seeds, played, strict=True):
-        if isinstance(answer, Refused):
-            assert RULES.check(game, action) == answer.refusals
-            continue
-        stroke = play_stroke(RULES, game, action, seed, NoiseModel(1.0))
-        assert answer == (stroke.ruling, stroke.game)
-    assert sum(isinstance(answer, Refused) for answer in played) == 1
+def draws_of(seeds, stroke):
+    """The normal numbers that `NoiseModel.perturb` draws, in the order of a stroke's columns."""
+    stream = SeededStream(seeds.noise_seed, f"pooliad/1 stroke {stroke}")
+    a, b, theta, phi, v = (stream.gaussian() for _ in range(5))
+    return v, phi, theta, a, b
+
+
+def test_games_played_as_batches_are_those_of_the_referee_bit_for_bit():
+    """Every stroke of some games, until the last has ended by the rules or a limit of R49, against `play_stroke`."""
+    chance, noise = np.random.default_rng(5), NoiseModel(1.0)
+    rules = EightBall(RULES.table, Limits(dry_visits=5, replays=1, strokes=40))
+    seeds = [MatchSeed.of(number).game(0) for number in range(4 * len(SCENES))]
+    games, ends, played = SCENES * 4, Counter(), 0
+    while games:
+        vectors = [chance.uniform(-1, 1, ACTION_SIZE) for _ in games]
+        alone = [
+            play_stroke(rules, game, act(rules.table, game, vector), seed, noise)
+            for game, vector, seed in zip(games, vectors, seeds, strict=True)
+        ]
+        rows = [row for row, game in enumerate(games) if not game.decisions]
+        striking = [games[row] for row in rows]
+        asked = np.array([vectors[row] for row in rows]).reshape(-1, ACTION_SIZE)
+        draws = np.array([draws_of(seeds[row], games[row].stroke) for row in rows]).reshape(-1, 5)
+        together = play_strokes(rules, strokes(rules.table, striking, asked), noise, draws) if rows else []
+        assert together == [alone[row].ruling.game for row in rows]
+        played += len(rows)
+        ends.update(stroke.game.outcome.rule for stroke in alone if stroke.game.is_over)
+        left = [(stroke.game, seed) for stroke, seed in zip(alone, seeds, strict=True) if not stroke.game.is_over]
+        games, seeds = [game for game, _ in left], [seed for _, seed in left]
+    assert played > 200
+    assert {"R42", "R43", "R49"} <= set(ends)
+
+
+@given(st.sampled_from(SCENES[:-1]), vectors)
+def test_a_stroke_among_many_is_the_same_stroke(game, vector):
+    many = strokes(RULES.table, [SCENES[1], game, SCENES[5]], np.array([vector * 0.5, vector, -vector]))
+    assert many.action(1) == act(RULES.table, game, vector)
 
 
 def test_many_games_are_the_same_games_again_with_the_same_seed():
