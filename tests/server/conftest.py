@@ -27,6 +27,7 @@ DATABASES = {
     "test_long_poll": BOTH,
     "test_matches": BOTH,
     "test_order_of_checks": BOTH,
+    "test_tournaments": BOTH,
     "test_whole_match": BOTH,
     "test_several_processes": ("postgresql",),
 }
@@ -313,6 +314,12 @@ def table_at() -> Callable[..., Table]:
 def player_at() -> Callable[[Running], Player]:
     """A fresh agent at a server of the test's own."""
     return register
+
+
+@pytest.fixture(scope="session")
+def organiser_at() -> Callable[[Running], Player]:
+    """The organiser at a server of the test's own."""
+    return lambda server: Player(server, "organiser", ORGANISER_TOKEN)
 
 
 @pytest.fixture(scope="session")

@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import psycopg
 import pytest
+from support.cup import Cup
 from support.streams import until, watching
 
 from referee.record import verify_record
@@ -136,6 +137,56 @@ def test_who_stays_keeps_the_clocks_of_running_turns(own_pair, table_at):
     clock = table.organiser.get(f"/v1/games/{view['game']}").json()["view"]["clocks"][view["seat"]]
     assert clock["running"]
     assert clock["seconds_left"] < 60
+
+
+FOUR = ("ann", "bob", "cat", "dan")
+
+
+def test_one_of_two_is_killed_in_the_middle_and_the_event_goes_on_through_the_other(own_pair, organiser_at, player_at):
+    """docs/running-tournaments.md, Over HTTP: finished games stand, running ones go on, what is due begins."""
+    first, second = own_pair
+    event = Cup(organiser_at(first), lambda: player_at(first), FOUR)
+    assert event.act("start").status_code == 200
+    before, under_way = event.running()
+    event.concede(before)
+    games = {game["match"] for game in event.running()}
+    assert under_way["match"] in games
+    first.stop(signal.SIGKILL)
+    event.at(second)
+    assert {game["match"] for game in event.running()} == games
+    assert event.read()["games"] == 1
+    event.play_out()
+    assert event.read()["status"] == "finished"
+    played = event.read()["played"]
+    assert len(played) == 12
+    assert {(game["attempt"], game["outcome"]["reason"]) for game in played} == {(0, "concession")}
+
+
+def test_matches_that_end_at_both_at_once_begin_each_due_game_once(pair, organiser_at, player_at):
+    """Their two transactions write the same event: whoever comes second sees what the first one gave out."""
+    event = Cup(organiser_at(pair[0]), lambda: player_at(pair[0]), FOUR)
+    event.act("start")
+    with ThreadPoolExecutor(2) as pool:
+        while running := event.running():
+            for number, game in enumerate(running):
+                for name in game["players"]:
+                    event.players[name].server = pair[number % 2]
+            list(pool.map(event.concede, running))
+            busy = [name for game in event.running() for name in game["players"]]
+            assert len(busy) == len(set(busy))
+    view = event.read()
+    assert (view["status"], view["games"]) == ("finished", 12)
+    assert len({(game["pair"], game["leg"]) for game in view["played"]}) == len(view["played"]) == 12
+
+
+def test_a_decision_asked_for_at_both_at_once_is_taken_once(pair, organiser_at, player_at):
+    event = Cup(organiser_at(pair[0]), lambda: player_at(pair[0]), ("ann", "bob"))
+    organisers = [organiser_at(server) for server in pair]
+    with ThreadPoolExecutor(2) as pool:
+        answers = list(pool.map(lambda one: one.post(f"/v1/tournaments/{event.id}/start"), organisers))
+    assert sorted(answer.status_code for answer in answers) == [200, 409]
+    assert [entry["kind"] for entry in event.read()["log"]] == ["opened", "go_on"]
+    assert len(event.running()) == 1
 
 
 def test_of_shots_at_both_at_once_one_is_played(pair, table_at, break_shot):

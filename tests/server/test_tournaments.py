@@ -1,52 +1,12 @@
 """Tournaments over HTTP: docs/running-tournaments.md, Over HTTP; docs/protocol.md, Tournaments."""
 
-import itertools
 import signal
 
 import pytest
+from support.cup import Cup
 
 from referee.record import read_record, verify_record
 from tournament import Event, Spec, game_seeds
-
-
-class Cup:
-    """A tournament of players who do what the test says."""
-
-    def __init__(self, organiser, new_player, names=("ann", "bob", "cat"), **terms):
-        self.organiser = organiser
-        self.players = {name: new_player() for name in names}
-        self.terms = {"name": "Cup", "entrants": list(names), "pairs": 1, "seed": 5, **terms}
-        agents = {name: player.id for name, player in self.players.items()}
-        response = organiser.post("/v1/tournaments", {"terms": self.terms, "agents": agents})
-        assert response.status_code == 201, response.text
-        self.id = response.json()["id"]
-
-    def act(self, verb, body=None, **options):
-        return self.organiser.post(f"/v1/tournaments/{self.id}/{verb}", body, **options)
-
-    def read(self, path=""):
-        response = self.organiser.get(f"/v1/tournaments/{self.id}{path}")
-        assert response.status_code == 200, response.text
-        return response.json()
-
-    def running(self):
-        return [game for game in self.read()["played"] if game["status"] == "running"]
-
-    def concede(self, game):
-        """Let whoever is to break a running game concede it."""
-        breaker = self.players[game["players"][game["breaker"]]]
-        while (message := breaker.turn())["type"] != "turn" or message["view"]["match"] != game["match"]:
-            assert message["type"] != "turn"
-        view = message["view"]
-        assert breaker.post(f"/v1/games/{view['game']}/concede", version=view["version"]).status_code == 200
-        return view["game"]
-
-    def play_out(self):
-        """Concede until the event is over."""
-        conceded = []
-        while running := self.running():
-            conceded.append(self.concede(running[0]))
-        return conceded
 
 
 @pytest.fixture
@@ -207,16 +167,10 @@ def test_events_are_listed_the_newest_first(cup, organiser):
     assert organiser.get("/v1/tournaments", limit=1, cursor=page["next_cursor"]).status_code == 200
 
 
-def test_an_event_goes_on_after_the_server_was_killed(own_server, organiser):
+def test_an_event_goes_on_after_the_server_was_killed(own_server, organiser_at, player_at):
     """The result and the next match are written in the transaction of the last stroke."""
-    server, made = own_server(), itertools.count()
-    player = type(organiser)
-
-    def register():
-        entry = server.request("POST", "/v1/agents", json={"name": f"player {next(made)}"}).json()
-        return player(server, entry["agent"]["id"], entry["token"])
-
-    event = Cup(player(server, "organiser", organiser.token), register, ("ann", "bob"))
+    server = own_server()
+    event = Cup(organiser_at(server), lambda: player_at(server), ("ann", "bob"))
     event.act("start")
     event.concede(event.running()[0])
     server.restart(signal.SIGKILL)
