@@ -38,11 +38,13 @@ class Ledger:
 
     Attributes:
         event: terms and results.
+        begun: an organiser has had it start (whoever runs an event without one needs no such entry).
         paused: no game is to be started for now. aborted: nor ever again.
         refused: entries that could not be carried out, and why.
     """
 
     event: Event
+    begun: bool = False
     paused: bool = False
     aborted: bool = False
     refused: tuple[str, ...] = field(default=())
@@ -114,7 +116,7 @@ _ACTS: dict[str, Callable[[Ledger, Entry], Ledger]] = {
     "void": _void,
     "disqualify": _disqualify,
     "pause": lambda ledger, _: replace(ledger, paused=True),
-    "go_on": lambda ledger, _: replace(ledger, paused=False),
+    "go_on": lambda ledger, _: replace(ledger, begun=True, paused=False),
     "abort": lambda ledger, _: replace(ledger, aborted=True),
 }
 """What an organiser may do, by the kind of its entry. Other kinds (opened, incident, …) change nothing."""

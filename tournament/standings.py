@@ -49,7 +49,7 @@ def standings(event: Event) -> tuple[Standing, ...]:
     keys = {name: (table.points[name], *table.tie_breaks(name)) for name in seeded(event.spec)}
     ordered = sorted(keys, key=lambda name: keys[name], reverse=True)
     rank_of = {key: 1 + sum(other > key for other in keys.values()) for key in set(keys.values())}
-    return tuple(table.line(name, rank_of[keys[name]]) for name in ordered)
+    return tuple(table.line(name, rank_of[keys[name]], keys[name][1:]) for name in ordered)
 
 
 class _Table:
@@ -64,7 +64,7 @@ class _Table:
         self._byes = [bye.player for bye in event.byes if self._reached(bye.round)]
         self.points = {name: self._points(name) for name in event.spec.names}
 
-    def line(self, name: str, rank: int) -> Standing:
+    def line(self, name: str, rank: int, tie_breaks: tuple[float, ...]) -> Standing:
         """The finished line."""
         outcomes = [game.points_of(name) for game in self._games[name]]
         return Standing(
@@ -77,7 +77,7 @@ class _Table:
             draws=outcomes.count(0.5),
             losses=outcomes.count(0.0),
             byes=self._byes.count(name),
-            tie_breaks=self.tie_breaks(name),
+            tie_breaks=tie_breaks,
             withdrawn=name in self._event.withdrawn,
         )
 

@@ -171,7 +171,7 @@ class RemoteRunner:
             return
         (played,) = server.match(game.match).played
         record = server.record(played.id)
-        result = result_of(read_record(record.decode().splitlines()), due)
+        result = result_of(read_record(record.decode().splitlines()), due, game.simulated or (0, 0))
         write_whole(path, record)
         self._journal.append("game", result=result.to_dict(), match=game.match)
         self._ledger = self._ledger.after(self._journal.new())

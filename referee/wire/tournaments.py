@@ -80,6 +80,7 @@ class TournamentGame(Message):
         noise: level; null while the players are not to know it.
         match: id of the match at the server; a game that was forfeit unplayed has none.
         status: ``running``, ``finished``, ``aborted`` or ``void``.
+        simulated: shots simulated at the server or declared, by seat; null while the game is running.
     """
 
     pair: str
@@ -92,6 +93,7 @@ class TournamentGame(Message):
     match: Identifier | None
     status: Literal["running", "finished", "aborted", "void"]
     outcome: OutcomeView | None
+    simulated: tuple[Integer, Integer] | None
 
 
 class TournamentSummary(Message):

@@ -15,6 +15,7 @@ from referee.play import nanoseconds
 from server import failpoints
 from server.failpoints import Failpoint
 from server.ops.metrics import Metrics
+from server.services.courses import Course, Courses
 from server.services.limits import Limits
 from server.services.physics_pool import PhysicsPool
 from server.services.presence import Presence
@@ -39,6 +40,7 @@ class Context:
         aside: threads for what must not wait behind requests: signs of life, the timer, what is asked about health.
         pulse: whether the signs of life reach the database.
         in_hand: for each game the arrival times of the requests that are being worked on.
+        courses: how the tournaments stand that were asked for last.
         failpoint: told every step at which tests have the process killed.
         match_over: called when a match has ended, with its id, in the transaction that ended it.
     """
@@ -57,6 +59,7 @@ class Context:
     limits: Limits = field(init=False)
     physics: PhysicsPool = field(init=False)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
+    courses: Courses = field(default_factory=Courses)
     failpoint: Failpoint = field(default_factory=lambda: failpoints.parse(""))
     match_over: Callable[["Writing", str], None] = lambda writing, match_id: None
 
@@ -83,11 +86,12 @@ class Context:
     def writing(self) -> Iterator["Writing"]:
         """A transaction that commits at the end of the block and rolls back when it raises.
 
-        Then the agents in `Writing.woken` are.
+        Then the agents in `Writing.woken` are, and `Writing.courses` are what is known.
         """
         with self.database.writing() as connection:
             writing = Writing(connection, self, self.time.now())
             yield writing
+        self.courses.keep(writing.courses)
         if writing.woken:
             self.wakeups.notify(writing.woken)
 
@@ -109,9 +113,11 @@ class Writing:
 
     Attributes:
         woken: agents to be told that there may be news for them, once it is committed.
+        courses: of the tournaments it looked at or wrote, its own entries included.
     """
 
     connection: Connection
     context: Context
     now: int
     woken: set[str] = field(default_factory=set, compare=False)
+    courses: dict[str, Course] = field(default_factory=dict, compare=False)

@@ -5,7 +5,7 @@ Everything here that writes runs in the transaction of whatever caused it.
 
 from typing import Any, Final, get_args
 
-from sqlalchemy import Connection, Row, insert, select, update
+from sqlalchemy import ColumnElement, Connection, Row, insert, select, update
 
 from referee.record import read_record
 from referee.wire import ClockTerms, MatchRequest, NoiseTerms, TournamentStatus
@@ -13,18 +13,21 @@ from referee.wire.matches import RackTerms
 from server.errors import NotFound
 from server.services import history
 from server.services.context import Context, Writing
+from server.services.courses import Course
 from server.services.live import RUNNING
 from server.services.matches import insert_match
 from server.services.openings import begin_or_wait
 from server.store.locks import only_one
 from server.store.tables import games, matches, tournament_entries, tournament_games, tournaments
-from tournament import Due, Event, Pair, Spec
+from tournament import Due, Event, Spec
 from tournament.from_record import result_of
 from tournament.ledger import Act, Ledger
 from tournament.seeds import match_seed
 
 STATUSES: Final[tuple[str, ...]] = get_args(TournamentStatus)
 OPEN: Final = ("created", "running", "paused")
+RESULT: Final = "game"
+"""The kind of a result's entry."""
 SERVER: Final = "server"
 """Who notes results."""
 LONGEST_CLOCK: Final = 86_400.0
@@ -45,34 +48,38 @@ def hold(connection: Connection, tournament_id: str) -> Row[Any]:
     return find(connection, tournament_id)
 
 
-def spec_of(row: Row[Any]) -> Spec:
-    """The terms."""
-    return Spec.from_dict(row.terms)
+def course(context: Context, connection: Connection, row: Row[Any]) -> Course:
+    """How the event stands, for who only reads."""
+    found = _course(context.courses.get(row.id), connection, row)
+    context.courses.keep({row.id: found})
+    return found
 
 
-def ledger_of(connection: Connection, row: Row[Any]) -> Ledger:
-    """How the event stands."""
-    return Ledger(Event(spec_of(row))).after(Act(each.kind, each.fields) for each in entries(connection, row.id))
+def course_here(writing: Writing, row: Row[Any]) -> Course:
+    """How the event stands in this transaction, which holds it."""
+    known = writing.courses.get(row.id) or writing.context.courses.get(row.id)
+    writing.courses[row.id] = _course(known, writing.connection, row)
+    return writing.courses[row.id]
 
 
-def entries(connection: Connection, tournament_id: str) -> list[Row[Any]]:
-    """What happened, in order."""
-    ours = tournament_entries.c.tournament_id == tournament_id
-    return list(connection.execute(select(tournament_entries).where(ours).order_by(tournament_entries.c.sequence)))
+def decisions(connection: Connection, tournament_id: str) -> list[Row[Any]]:
+    """What was noted but results, in order."""
+    return _entries(connection, tournament_id, tournament_entries.c.kind != RESULT)
 
 
-def note(writing: Writing, tournament_id: str, kind: str, by: str, fields: dict[str, Any]) -> None:
+def note(writing: Writing, row: Row[Any], kind: str, by: str, fields: dict[str, Any]) -> None:
     """Add an entry."""
-    row = {"tournament_id": tournament_id, "kind": kind, "by": by, "fields": fields, "created_at": writing.now}
-    writing.connection.execute(insert(tournament_entries).values(row))
+    before = course_here(writing, row)
+    values = {"tournament_id": row.id, "kind": kind, "by": by, "fields": fields, "created_at": writing.now}
+    made = writing.connection.execute(insert(tournament_entries).values(values)).inserted_primary_key
+    assert made is not None
+    writing.courses[row.id] = Course(made[0], before.ledger.after([Act(kind, fields)]))
 
 
-def go_on(writing: Writing, tournament_id: str) -> Row[Any]:
+def go_on(writing: Writing, row: Row[Any]) -> Row[Any]:
     """Give out what is due and bring the event's row up to date; the row as it is then."""
-    row = find(writing.connection, tournament_id)
-    ledger = ledger_of(writing.connection, row)
-    begun = any(entry.kind == "go_on" for entry in entries(writing.connection, tournament_id))
-    status = "created" if not begun and not ledger.over else ledger.state
+    ledger = course_here(writing, row).ledger
+    status = ledger.state if ledger.begun or ledger.over else "created"
     counts = {"games": len(ledger.event.counted), "due": len(ledger.event.due)}
     values: dict[str, Any] = {"status": status, **counts}
     if status == "running":
@@ -80,8 +87,8 @@ def go_on(writing: Writing, tournament_id: str) -> Row[Any]:
         _give_out(writing, row, ledger)
     elif status not in OPEN:
         values["ended_at"] = writing.now
-    writing.connection.execute(update(tournaments).where(tournaments.c.id == tournament_id).values(values))
-    return find(writing.connection, tournament_id)
+    writing.connection.execute(update(tournaments).where(tournaments.c.id == row.id).values(values))
+    return find(writing.connection, row.id)
 
 
 def match_over(writing: Writing, match_id: str) -> None:
@@ -93,18 +100,19 @@ def match_over(writing: Writing, match_id: str) -> None:
     row = hold(writing.connection, mine.tournament_id)
     if row.status not in OPEN:
         return
-    pair = _pair(writing.connection, row, mine.pair)
+    pairs = course_here(writing, row).ledger.event.plan.pairs
+    pair = next((pair for pair in pairs if pair.id == mine.pair), None)  # None: it has left the plan meanwhile
     if pair is not None:
         result = _result(writing.connection, match_id, Due(pair, mine.leg, mine.attempt))
-        note(writing, row.id, "game", SERVER, {"result": result})
-    go_on(writing, row.id)
+        note(writing, row, RESULT, SERVER, {"result": result})
+    go_on(writing, row)
 
 
 def stray_matches(context: Context, tournament_id: str) -> list[str]:
     """Running matches whose games are no longer due: of an event that was aborted, of an entrant who is out."""
     with context.database.reading() as connection:
         row = find(connection, tournament_id)
-        ledger = ledger_of(connection, row)
+        ledger = course(context, connection, row).ledger
         due = set() if ledger.aborted else {(one.pair.id, one.leg, one.attempt) for one in ledger.event.due}
         running = running_games(connection, tournament_id)
     return [str(game.match_id) for game in running if (game.pair, game.leg, game.attempt) not in due]
@@ -152,10 +160,21 @@ def _begin(writing: Writing, row: Row[Any], spec: Spec, due: Due) -> None:
     writing.woken.update((first, second))
 
 
-def _pair(connection: Connection, row: Row[Any], pair_id: str) -> Pair | None:
-    """A pair of the event; None if it has left the plan meanwhile."""
-    plan = ledger_of(connection, row).event.plan.pairs
-    return next((pair for pair in plan if pair.id == pair_id), None)
+def _course(known: Course | None, connection: Connection, row: Row[Any]) -> Course:
+    """What is known, and the entries since."""
+    since = 0 if known is None else known.sequence
+    ledger = Ledger(Event(Spec.from_dict(row.terms))) if known is None else known.ledger
+    later = _entries(connection, row.id, tournament_entries.c.sequence > since)
+    if known is not None and not later:
+        return known
+    sequence = later[-1].sequence if later else since
+    return Course(sequence, ledger.after(Act(each.kind, each.fields) for each in later))
+
+
+def _entries(connection: Connection, tournament_id: str, condition: ColumnElement[bool]) -> list[Row[Any]]:
+    """What happened, in order."""
+    ours = (tournament_entries.c.tournament_id == tournament_id) & condition
+    return list(connection.execute(select(tournament_entries).where(ours).order_by(tournament_entries.c.sequence)))
 
 
 def _result(connection: Connection, match_id: str, due: Due) -> dict[str, Any]:

@@ -18,26 +18,32 @@ from referee.wire import (
     TournamentView,
 )
 from server.services import events
+from server.services.context import Context
+from server.services.courses import Course
 from server.services.time import date_time
 from server.store.tables import tournament_games
-from tournament import GameResult, Pair, standings
+from tournament import GameResult, Pair
 from tournament.ledger import Ledger
-from tournament.statistics import rate
 
 Key = tuple[str, int, int]
 """Pair, leg and attempt of a game."""
 
 
-def view(connection: Connection, row: Row[Any]) -> TournamentView:
+def view(context: Context, connection: Connection, row: Row[Any]) -> TournamentView:
     """An event with its games and decisions."""
-    ledger = events.ledger_of(connection, row)
+    return view_of(connection, row, events.course(context, connection, row))
+
+
+def view_of(connection: Connection, row: Row[Any], course: Course) -> TournamentView:
+    """The same when it is known how the event stands."""
+    ledger = course.ledger
     spec, over = ledger.event.spec, row.status not in events.OPEN
     return TournamentView(
         **_summary(row),
         terms=spec.published() | ({"seed": spec.seed} if over else {}),
         agents=row.agents,
         played=tuple(_games(connection, row, ledger)),
-        log=tuple(_entry(each) for each in events.entries(connection, row.id) if each.kind != "game"),
+        log=tuple(_entry(each) for each in events.decisions(connection, row.id)),
     )
 
 
@@ -46,24 +52,26 @@ def summary(row: Row[Any]) -> TournamentSummary:
     return TournamentSummary(**_summary(row))
 
 
-def standings_view(connection: Connection, row: Row[Any]) -> StandingsView:
+def standings_view(context: Context, connection: Connection, row: Row[Any]) -> StandingsView:
     """How the entrants stand."""
-    event = events.ledger_of(connection, row).event
-    lines = tuple(StandingView(**line.to_dict(), agent=row.agents[line.name]) for line in standings(event))
-    test = None if event.test is None else SequentialTestView(**asdict(event.test))
-    rated = rate(event.counted, event.spec.names).table if event.counted else ()
-    ratings = tuple(RatingView(**rating.to_dict()) for rating in rated)
-    return StandingsView(tournament=row.id, status=row.status, standings=lines, ratings=ratings, test=test)
+    course = events.course(context, connection, row)
+    test = course.ledger.event.test
+    return StandingsView(
+        tournament=row.id,
+        status=row.status,
+        standings=tuple(StandingView(**line.to_dict(), agent=row.agents[line.name]) for line in course.standings),
+        ratings=tuple(RatingView(**rating.to_dict()) for rating in course.ratings),
+        test=None if test is None else SequentialTestView(**asdict(test)),
+    )
 
 
 def _summary(row: Row[Any]) -> dict[str, Any]:
-    spec = events.spec_of(row)
     return {
         "id": row.id,
-        "name": spec.name,
+        "name": row.name,
         "status": row.status,
-        "format": spec.format.value,
-        "entrants": spec.names,
+        "format": row.terms["format"],
+        "entrants": tuple(entrant["name"] for entrant in row.terms["entrants"]),
         "games": row.games,
         "due": row.due,
         "created_at": date_time(row.created_at),
@@ -104,6 +112,7 @@ def _game(pair: Pair, key: Key, match: str | None, result: GameResult | None, to
         match=match,
         status=_status(result),
         outcome=outcome,
+        simulated=None if result is None else result.simulated,
     )
 
 

@@ -31,7 +31,7 @@ from tournament.size import games_of
 
 SECRET_BYTES: Final = 32
 MOST_GAMES: Final = 10_000
-"""In one event: how it stands is computed from all its results whenever one is added."""
+"""In one event: its plan, its games and its standings are each one answer."""
 
 
 def create(context: Context, command: Command) -> Answer:
@@ -72,13 +72,13 @@ def disqualify(context: Context, tournament_id: str, command: Command) -> Answer
 def one(context: Context, tournament_id: str) -> TournamentView:
     """An event; raises `NotFound`."""
     with context.database.reading() as connection:
-        return tournament_views.view(connection, events.find(connection, tournament_id))
+        return tournament_views.view(context, connection, events.find(connection, tournament_id))
 
 
 def standings(context: Context, tournament_id: str) -> StandingsView:
     """How its entrants stand; raises `NotFound`."""
     with context.database.reading() as connection:
-        return tournament_views.standings_view(connection, events.find(connection, tournament_id))
+        return tournament_views.standings_view(context, connection, events.find(connection, tournament_id))
 
 
 def listing(context: Context, status: str | None, cursor: int, limit: int) -> TournamentList:
@@ -108,9 +108,9 @@ def _created(writing: Writing, command: Command) -> Answer:
         "created_at": writing.now,
     }
     writing.connection.execute(insert(tournaments).values(row))
-    events.note(writing, str(row["id"]), "opened", command.caller.id, {})
-    found = tournament_views.view(writing.connection, events.go_on(writing, str(row["id"])))
-    return Answer.of(201, found, location=f"/v1/tournaments/{row['id']}")
+    made = events.find(writing.connection, str(row["id"]))
+    events.note(writing, made, "opened", command.caller.id, {})
+    return Answer.of(201, _gone_on(writing, made), location=f"/v1/tournaments/{made.id}")
 
 
 def _spec(request: TournamentRequest) -> Spec:
@@ -167,9 +167,14 @@ def _act(
     """Note the decision, if the event as it stands allows it, and give out what follows."""
     if row.status not in allowed:
         raise WrongStatus(f"the tournament is {row.status}; allowed: {', '.join(allowed)}")
-    refused = events.ledger_of(writing.connection, row).after([Act(kind, fields)]).refused
+    refused = events.course_here(writing, row).ledger.after([Act(kind, fields)]).refused
     if refused:
         raise invalid_field(next(iter(fields)), fields[next(iter(fields))], refused[-1])
-    events.note(writing, row.id, kind, by, fields)
-    row = events.go_on(writing, row.id)
-    return Answer.of(200, tournament_views.view(writing.connection, row))
+    events.note(writing, row, kind, by, fields)
+    return Answer.of(200, _gone_on(writing, row))
+
+
+def _gone_on(writing: Writing, row: Row[Any]) -> TournamentView:
+    """The event after what follows from its entries was done."""
+    row = events.go_on(writing, row)
+    return tournament_views.view_of(writing.connection, row, events.course_here(writing, row))
