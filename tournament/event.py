@@ -136,13 +136,13 @@ class Event:
         """The event with a game's result void: the game is due again, with fresh noise.
 
         Raises:
-            InvalidResult: the game has no result, or a later round has been drawn from it already.
+            InvalidResult: the game has no result, or a later round or an extra pair has followed from it already.
         """
         result = self.games.get((pair, leg))
         if result is None:
             _check.fail("pair", f"{pair} game {leg}", "a game with a result")
         if self._drawn_from(pair):
-            _check.fail("pair", pair, "a game that no later round has been drawn from")
+            _check.fail("pair", pair, "a game that no later round or extra pair has followed from")
         void = replace(result, void=True)
         return replace(self, results=tuple(void if one is result else one for one in self.results))
 
@@ -168,10 +168,17 @@ class Event:
         """The first round after all those in which something has been played."""
         return max((self._pairs[result.pair].round + 1 for result in self.results), default=0)
 
-    def _drawn_from(self, pair: str) -> bool:
-        """Whether a result exists in a later round that was drawn from this one's results."""
-        later = any(self._pairs[result.pair].round > self._pairs[pair].round for result in self.results)
-        return later and not self._all_planned()
+    def _drawn_from(self, pair_id: str) -> bool:
+        """Whether a result exists that would not without this pair's: of a later round, of an extra pair after it."""
+        if self._all_planned():
+            return False
+        pair, others = self._pairs[pair_id], [self._pairs[result.pair] for result in self.results]
+        return any(other.round > pair.round or self._is_extra(other, pair) for other in others)
+
+    def _is_extra(self, pair: Pair, after: Pair) -> bool:
+        """Whether a pair was added to a drawn meeting of a knockout after another one of it."""
+        same = (pair.round, pair.meeting) == (after.round, after.meeting)
+        return same and pair.index >= self.spec.pairs and pair.index > after.index
 
     @cached_property
     def _pairs(self) -> dict[str, Pair]:

@@ -70,25 +70,33 @@ class Ledger:
             if entry.kind == "game":
                 games.append(_result(entry))
                 continue
-            ledger, games = ledger.with_games(games), []
-            ledger = ledger._changed(entry)
-        return ledger.with_games(games)
+            ledger, games = ledger._with(games)._changed(entry), []
+        return ledger._with(games)
+
+    def _with(self, games: list[GameResult]) -> "Ledger":
+        return self.with_games(games) if games else self
 
     def with_games(self, results: Iterable[GameResult]) -> "Ledger":
-        """With more results.
+        """With more results, one after the other: a pair of a later round may follow from results before it.
 
         The first one of a game stays. One that comes too late, of a game that was forfeit meanwhile or whose pair is
         no longer in the event, is passed over.
         """
-        fresh: dict[tuple[str, int], GameResult] = {}
-        results = tuple(results)
-        pairs = {pair.id for pair in self.event.plan.pairs} if results else set()
-        seen = {(one.pair, one.leg, one.attempt) for one in self.event.results}
+        event, fresh = self.event, list[GameResult]()
+        counted = set(event.games)
+        seen = {(one.pair, one.leg, one.attempt) for one in event.results}
+        pairs = {pair.id for pair in event.plan.pairs}
         for one in results:
+            if one.pair not in pairs and fresh:
+                event, fresh = event.with_results(*fresh), []
+                pairs = {pair.id for pair in event.plan.pairs}
             key = one.pair, one.leg
-            if one.pair in pairs and key not in self.event.games and (*key, one.attempt) not in seen:
-                fresh.setdefault(key, one)
-        return replace(self, event=self.event.with_results(*fresh.values())) if fresh else self
+            if one.pair in pairs and key not in counted and (*key, one.attempt) not in seen:
+                fresh.append(one)
+                seen.add((*key, one.attempt))
+                counted |= {key} if one.counts else set()
+        event = event.with_results(*fresh) if fresh else event
+        return self if event is self.event else replace(self, event=event)
 
     def _changed(self, entry: Entry) -> "Ledger":
         act = _ACTS.get(entry.kind)

@@ -29,6 +29,25 @@ def test_an_event_runs_from_start_to_finish(cup):
     assert {line["agent"] for line in lines} == {player.id for player in event.players.values()}
 
 
+@pytest.mark.parametrize(
+    ("terms", "games"),
+    [
+        ({"format": "swiss", "rounds": 3}, 12),
+        ({"format": "knockout", "extra_pairs": 1}, 12),
+        ({"format": "gauntlet"}, 6),
+    ],
+    ids=["swiss", "knockout", "gauntlet"],
+)
+def test_every_format_is_played_to_its_end(cup, terms, games):
+    """Everybody concedes the own break: all meetings are drawn, and a knockout plays its extra pairs."""
+    event = cup(("ann", "bob", "cat", "dan"), **terms)
+    event.act("start")
+    assert len(event.play_out()) == games
+    view = event.read()
+    assert (view["status"], view["games"], view["due"]) == ("finished", games, 0)
+    assert sum(line["score"] for line in event.read("/standings")["standings"]) == games
+
+
 def test_both_games_of_a_pair_have_the_racks_and_the_noise_of_the_events_seed(cup, organiser):
     event = cup(("ann", "bob"))
     event.act("start")

@@ -75,8 +75,19 @@ def test_a_round_that_another_was_drawn_from_stands():
     event = event.with_results(*(result_of(due, 0) for due in event.due))
     assert event.voided("r0-m0-p0", 0).due
     event = event.with_results(result_of(event.due[0], 0))
-    with pytest.raises(InvalidResult, match="no later round has been drawn from"):
+    with pytest.raises(InvalidResult, match="no later round or extra pair has followed from"):
         event.voided("r0-m0-p0", 0)
+
+
+def test_a_pair_that_an_extra_pair_followed_from_stands():
+    """Seen: void, it took the extra pair out of the plan, and the event with its result could not be read any more."""
+    event = Event(spec_of(2, format="knockout"))
+    event = event.with_results(*(result_of(due, None) for due in event.due))
+    assert event.voided("r0-m0-p0", 0).due
+    event = event.with_results(result_of(event.due[0], 0))
+    with pytest.raises(InvalidResult, match="no later round or extra pair has followed from"):
+        event.voided("r0-m0-p0", 0)
+    assert event.voided("r0-m0-p1", 0).due
 
 
 def test_a_plan_that_cannot_change_is_made_once():

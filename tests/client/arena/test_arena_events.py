@@ -6,15 +6,18 @@ import random
 import subprocess
 import sys
 import time
+from concurrent.futures import Future
+from concurrent.futures.process import BrokenProcessPool
 
 import pytest
 
 from client.arena.directory import EventDirectory, EventError
 from client.arena.executors import InProcess, pool_of
 from client.arena.runner import Runner
+from client.arena.tasks import PairDone
 from client.arena.terms import Terms
 from referee.record import verify_record
-from tournament import Event
+from tournament import Event, forfeit
 from tournament.ledger import Ledger
 
 CUP = {
@@ -52,6 +55,31 @@ def test_every_pair_is_played_and_every_record_verifies(whole):
     records = [text for name, text in kept.items() if name.endswith(".jsonl")]
     assert len(records) == len(ledger.event.counted) == 6
     assert all(verify_record(record.decode().splitlines()).ok for record in records)
+
+
+class Forfeiting(InProcess):
+    """A pool in which the second player never comes."""
+
+    def submit(self, task):
+        future = Future()
+        results = tuple(forfeit(game.due, game.due.pair.players[1]) for game in task.games)
+        future.set_result(PairDone(results, (), ()))
+        return future
+
+
+@pytest.mark.parametrize("terms", [{"format": "knockout"}, {"format": "swiss", "rounds": 2}], ids=["knockout", "swiss"])
+def test_an_event_of_rounds_is_read_from_its_beginning_as_it_was_played(tmp_path, terms):
+    """Seen: `status`, `report` and `resume` lost the results of all rounds but the first."""
+    names = [{"name": name, "agent": "random"} for name in "abcd"]
+    directory = begin(tmp_path / "cup", entrants=names, **terms)
+    played = run(directory, Forfeiting())
+    assert played.event.finished
+    assert {pair.round for pair in played.event.pairs} == {0, 1}
+    before = len(directory.journal.path.read_bytes())
+    again = Ledger(Event(played.event.spec)).after(directory.journal.new())
+    assert again.event.counted == played.event.counted
+    run(directory, Forfeiting())
+    assert b'"kind": "game"' not in directory.journal.path.read_bytes()[before:]
 
 
 def command(*arguments):
@@ -217,9 +245,6 @@ class Dying(InProcess):
         self.pair, self.times = pair, times
 
     def submit(self, task):
-        from concurrent.futures import Future
-        from concurrent.futures.process import BrokenProcessPool
-
         if task.pair != self.pair or self.times == 0:
             return super().submit(task)
         self.times -= 1
