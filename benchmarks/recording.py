@@ -20,6 +20,8 @@ ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "benchmarks" / "results"
 LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "mpmath")
 
+MEASURED = ("physics", "referee", "client", "server", "tournament", "benchmarks/*.py")
+"""What a line's commit is meant to say; the lines themselves change with every run."""
 WIDEST = 60
 """Letters in a printed cell; the data line holds all."""
 
@@ -56,7 +58,7 @@ def describe(name: str, full: bool) -> dict[str, Any]:
         "benchmark": name,
         "full": full,
         "commit": commit,
-        "uncommitted": bool(_git("status", "--porcelain", "--", "physics", "benchmarks/*.py")),
+        "uncommitted": bool(_git("status", "--porcelain", "--", *MEASURED)),
         "kernels": digest()[:16],
         "machine": _machine(),
         "versions": {"python": platform.python_version(), **_versions()},

@@ -1,6 +1,6 @@
-"""Writes the tables of ``docs/benchmarks.md`` from data lines: ``python -m benchmarks.report``.
+"""Writes the tables of the documents from data lines: ``python -m benchmarks.report``.
 
-A table in the document stands between ``<!-- table NAME TITLE [COLUMN ...] -->`` and ``<!-- end -->``; it is taken from
+A table in a document stands between ``<!-- table NAME TITLE [COLUMN ...] -->`` and ``<!-- end -->``; it is taken from
 the line to cite (the latest full run, else the latest) and says which line that is.
 """
 
@@ -11,11 +11,13 @@ from typing import Any
 from benchmarks import recording
 
 DOCUMENT = recording.ROOT / "docs" / "benchmarks.md"
+"""The one with a table of every benchmark."""
+OTHERS = (recording.ROOT / "docs" / "agents.md",)
 TABLE = re.compile(r"(<!-- table (\w+) (\w+)((?: \w+)*) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
-def write(path: Path = DOCUMENT) -> None:
-    """Put the latest tables into the document."""
+def write(path: Path) -> None:
+    """Put the latest tables into a document."""
     path.write_text(TABLE.sub(filled, path.read_text(encoding="utf-8")), encoding="utf-8")
 
 
@@ -49,4 +51,5 @@ def cited(line: dict[str, Any]) -> str:
 
 
 if __name__ == "__main__":
-    write()
+    for document in (DOCUMENT, *OTHERS):
+        write(document)

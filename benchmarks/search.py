@@ -2,7 +2,8 @@
 
 `python -m benchmarks.search play --pairs 20 --first 40 --player search:seconds=1,cpu=on --opponent greedy --noise 1`
 plays some pairs and appends a line with one row a pair, so that a long measurement can be made in pieces. `... search
-pool` puts all pieces of the present agent together into a line with one row a match-up: the one that documents cite. A
+pool` puts all pieces of the present agent, and of earlier ones if they are named, together into a line with one row a
+match-up: the one that documents cite. A
 piece is repeated exactly if the players are told `shots`; if they are told seconds, up to the machine's speed.
 """
 
@@ -139,17 +140,42 @@ def agent_digest() -> str:
     return digest_of(Path(str(inspect.getfile(SearchAgent))).parent)[:12]
 
 
-def pool(agents: list[str]) -> Tables:
+def pool(versions: list[list[str]]) -> Tables:
     """All pairs of these versions of the agent, by match-up.
 
-    Versions may be pooled whose play does not differ, or not under that noise; each row names those it holds.
+    Args:
+        versions: in groups whose play does not differ, the present one first; each row names those it holds.
     """
-    groups: dict[tuple[str, str, float], dict[int, Row]] = defaultdict(dict)
+    group_of = {version: place for place, group in enumerate(versions) for version in group}
+    found: dict[tuple[int, str, str, float], dict[int, Row]] = defaultdict(dict)
     for line in recording.lines("search"):
         for row in line["tables"].get("pairs", []):
-            if row["agent"] in agents:
-                groups[row["player"], row["opponent"], row["noise"]][row["pair"]] = row
-    return {"matches": [match_row(*key, list(rows.values())) for key, rows in sorted(groups.items())]}
+            if row["agent"] in group_of:
+                found[group_of[row["agent"]], row["player"], row["opponent"], row["noise"]][row["pair"]] = row
+    matches = {key: match_row(*key[1:], list(rows.values())) for key, rows in sorted(found.items())}
+    return {
+        "matches": list(matches.values()),
+        "strength": [strength_row(row) for key, row in matches.items() if key[0] == 0 and row["opponent"] == "greedy"],
+        "parts": [part_row(row) for row in matches.values() if row["opponent"].endswith("=off")],
+    }
+
+
+def strength_row(match: Row) -> Row:
+    """What a match-up against `greedy` says of the agent's strength."""
+    kept = ("noise", "score", "low_95", "high_95", "break_and_run", "opponent_break_and_run", "share_made")
+    return (
+        {"player": match["player"].removesuffix(",cpu=on"), "games": 2 * match["pairs"]}
+        | {name: match[name] for name in kept}
+        | {name: match[name] for name in ("seconds_per_stroke", "shots_per_stroke", "fouls")}
+    )
+
+
+def part_row(match: Row) -> Row:
+    """What a match-up against the agent without one of its parts says of that part's worth."""
+    budget, _, part = match["opponent"].removesuffix("=off").rpartition(",")
+    kept = ("noise", "score", "elo", "elo_low_95", "elo_high_95", "shots_per_stroke", "opponent_shots_per_stroke")
+    row = {"part": part, "player": budget, "agent": " ".join(match["agents"]), "games": 2 * match["pairs"]}
+    return row | {name: match[name] for name in kept}
 
 
 def match_row(player: str, opponent: str, noise: float, pairs: list[Row]) -> Row:
@@ -181,6 +207,7 @@ def match_row(player: str, opponent: str, noise: float, pairs: list[Row]) -> Row
         "strokes": mine["strokes"],
         "seconds_per_stroke": round(mine["seconds"] / max(1, mine["strokes"]), 4),
         "shots_per_stroke": round(mine["simulated"] / max(1, mine["strokes"])),
+        "opponent_shots_per_stroke": round(theirs["simulated"] / max(1, theirs["strokes"])),
         "fouls": dict(sorted(fouls.items())),
     }
 
@@ -218,7 +245,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.search")
     commands = parser.add_subparsers(required=True, dest="command")
     pooled = commands.add_parser("pool")
-    pooled.add_argument("agents", nargs="*", default=[agent_digest()], help="versions; the present one unless given")
+    pooled.add_argument(
+        "versions",
+        nargs="*",
+        default=[agent_digest()],
+        help="the present one unless given; those whose play is the same joined by +, the present one first",
+    )
     piece = commands.add_parser("play")
     piece.add_argument("--player", default="search:seconds=1,cpu=on")
     piece.add_argument("--opponent", default="greedy")
@@ -227,7 +259,7 @@ def main() -> None:
     piece.add_argument("--pairs", type=int, default=10)
     piece.add_argument("--seconds", type=float, default=240.0)
     given = parser.parse_args()
-    todo: Callable[[bool], Tables] = lambda _full: pool(given.agents)  # noqa: E731
+    todo: Callable[[bool], Tables] = lambda _full: pool([group.split("+") for group in given.versions])  # noqa: E731
     if given.command == "play":
         players = given.player, given.opponent
         todo = lambda _full: play(players, given.noise, given.first, given.pairs, given.seconds)  # noqa: E731

@@ -13,9 +13,10 @@ import numpy as np
 import client
 from benchmarks.command import main
 from benchmarks.recording import Row, Tables
+from client.agents.search.shots import CHANCE, PLACED, SEEN
 from client.agents.search.sight import Sight
 from client.agents.search.thinking import GROUPS
-from client.agents.search.value import CHANCE, PLACED, SEEN, Values
+from client.agents.search.value import Values
 from physics import Table
 from referee import Call, Phase, Stroke
 from referee.play.local import PlayedGame

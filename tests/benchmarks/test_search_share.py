@@ -47,3 +47,34 @@ def test_habits_are_counted():
     rows = search_habits.arrival_rows(1.0, tables)
     assert [row["arrival"] for row in rows] == list(search_habits.ARRIVALS)
     assert sum(row["strokes"] for row in search_habits.worth_rows(1.0, tables)) > 0
+
+
+def test_versions_that_play_differently_are_kept_apart(monkeypatch):
+    """The strength is the present version's; what a part was worth is told of every version."""
+    side = dict.fromkeys(("breaks", "runs", "called", "made", "safeties", "strokes", "simulated"), 1)
+    counts = side | {"points": 1.0, "seconds": 0.5, "fouls": {}}
+
+    def line(agent, opponent, pairs):
+        of = {"player": "search:shots=9,cpu=on", "opponent": opponent, "noise": 1.0, "agent": agent}
+        return {
+            "tables": {"pairs": [of | {"pair": pair, "of_player": counts, "of_opponent": counts} for pair in pairs]}
+        }
+
+    lines = [
+        line("v3", "greedy", (0, 1)),
+        line("v2", "greedy", (1, 2)),
+        line("v1", "greedy", (0,)),
+        line("v0", "x", (0,)),
+    ]
+    lines.append(line("v1", "search:shots=9,ways=off", (0, 1)))
+    monkeypatch.setattr(search.recording, "lines", lambda name: lines)
+    tables = search.pool([["v3", "v2"], ["v1"]])
+    assert [(row["opponent"], row["agents"], row["pairs"]) for row in tables["matches"]] == [
+        ("greedy", ["v2", "v3"], 3),
+        ("greedy", ["v1"], 1),
+        ("search:shots=9,ways=off", ["v1"], 2),
+    ]
+    assert [(row["player"], row["games"]) for row in tables["strength"]] == [("search:shots=9", 6)]
+    assert [(row["part"], row["agent"], row["games"], row["elo"]) for row in tables["parts"]] == [
+        ("ways", "v1", 4, 0.0)
+    ]

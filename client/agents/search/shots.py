@@ -12,6 +12,10 @@ Groups = NDArray[np.int8]
 V, PHI, THETA, A, B = range(5)
 """Columns of a stroke, as the physics takes them: m/s, deg, deg, mm, mm."""
 
+CHANCE, SEEN, LAYOUT, PLACED = range(4)
+"""Columns of a survey, what a table offers to a group: chance of its best pot; 1 if any of its balls can be struck
+straight; how hard its layout is, minus the sum of the logarithms of its balls' chances; chance with ball in hand."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tables:

@@ -47,7 +47,7 @@ class Sight:
         self.sigma = float(np.radians(SIGMA_PHI) * max(noise, LEAST_NOISE))
 
     def survey(self, positions: Floats, hand: NDArray[np.bool_], kitchen: float = 0.0) -> Floats:
-        """(n, 2, 4): what each table offers to either group; the columns are named in the kernels."""
+        """(n, 2, 4): what each table offers to either group; the columns are CHANCE and its fellows."""
         found = np.empty((len(positions), 2, 4))
         self._kernels.survey(self._row, np.ascontiguousarray(positions), self.sigma, hand, kitchen, found)
         return found

@@ -1,11 +1,12 @@
-"""One turn: gather strokes, judge them ever more carefully, fewer and fewer, until the budget is spent."""
+"""One turn: gather strokes, judge them ever more carefully, look ahead from the best, until the budget is spent."""
 
 import contextlib
 from dataclasses import dataclass
 
 import numpy as np
 
-from client.agents.search.evaluate import Evaluator
+from client.agents.search.evaluate import Evaluator, Outcomes
+from client.agents.search.lookahead import COST, correction
 from client.agents.search.options import Options
 from client.agents.search.placement import best_places, places
 from client.agents.search.pots import in_all_ways
@@ -22,10 +23,8 @@ SCREENING = 6
 """Noisy copies of every stroke."""
 NARROWING = ((0.25, 10), (0.3, 24), (0.4, 48))
 """Then so large a share of them is kept, and played so many times more; and again."""
-POT_SHARE, MOST_WAYS = 0.8, 1500
-"""Of the budget, what straight pots may cost if all of them fall; and ways to play each, however large the budget."""
-MOST_COPIES = 2000
-"""Of a finalist in a round, however large the budget."""
+POT_SHARE = 0.35
+"""Of the budget, for straight pots before any looking ahead."""
 FULL = 8000
 """Shots in the budget from which all those copies are played; below it fewer."""
 FINALISTS = 8
@@ -41,37 +40,41 @@ class Thought:
     """A stroke that was chosen.
 
     Attributes:
-        action: what to do. worth: the chance to win that it is reckoned to leave.
-        simulated: shots it took. considered: strokes that were looked at under noise.
+        action: what to do. worth: the chance to win that it is reckoned to leave. simulated: shots it took.
     """
 
     action: Action
     worth: float
     simulated: int
-    considered: int
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Finalists:
-    """Strokes that are left, and what each copy of each was worth under noise, (k, copies)."""
+    """The strokes that are left, and what is known of them."""
 
     shots: Shots
-    worths: Floats
+    outcomes: Outcomes
+    added: Floats
+    """Sum of corrections by looking ahead, each times how many clusters it rests on."""
+    looked: Floats
+    """Sum of those numbers of clusters."""
 
     @property
     def worth(self) -> Floats:
-        """(k,): what each is worth, as far as known."""
-        found: Floats = self.worths.mean(axis=1)
+        """What each is worth, as far as known."""
+        found: Floats = self.outcomes.mean() + np.divide(
+            self.added, self.looked, out=np.zeros_like(self.added), where=self.looked > 0.0
+        )
         return found
 
-    def best(self, most: int) -> "Finalists":
-        """The best of them, the best first."""
-        rows = np.argsort(-self.worth, kind="stable")[:most]
-        return Finalists(self.shots[rows], self.worths[rows])
-
     def joined(self, other: "Finalists") -> "Finalists":
-        """These and others, all of them played equally often."""
-        return Finalists(self.shots.joined(other.shots), np.concatenate((self.worths, other.worths)))
+        """These and others; all of them were played equally often."""
+        return Finalists(
+            self.shots.joined(other.shots),
+            self.outcomes.joined(other.outcomes),
+            np.concatenate((self.added, other.added)),
+            np.concatenate((self.looked, other.looked)),
+        )
 
 
 class Turn:
@@ -82,7 +85,6 @@ class Turn:
         self._group = GROUPS[game.group_of(game.turn)]
         self._area = game.cue_ball_in_hand
         self._kitchen = self._area is CueBallArea.KITCHEN
-        self._considered = 0
 
     def best(self) -> Thought:
         """The best stroke that the budget finds; without any simulation left, the likeliest straight pot."""
@@ -93,14 +95,13 @@ class Turn:
             found = None
         if found is None:
             return self._reckoned(tables)
-        with contextlib.suppress(BudgetSpent):
-            found = self._told_apart(found)
-        found = found.best(FINALISTS)
-        for row in range(len(found.shots)):
-            action = self._action(found.shots, row)
+        if self._options.lookahead:
+            with contextlib.suppress(BudgetSpent):
+                self._look_ahead(found)
+        for best in np.argsort(-found.worth, kind="stable").tolist():
+            action = self._action(found.shots, best)
             if not self._rules.check(self._game, action):
-                simulated = self._evaluator.budget.simulated
-                return Thought(action, float(found.worth[row]), simulated, self._considered)
+                return Thought(action, float(found.worth[best]), self._evaluator.budget.simulated)
         return self._anything(tables)
 
     def _found(self, tables: Tables) -> Finalists | None:
@@ -133,8 +134,7 @@ class Turn:
         pots = int(np.clip(budget.total / 2500, 3, 10)) if len(tables) == 1 else 2
         listed = sight.pots(tables, pots)
         there = max(1, int((listed.chance > 0.0).sum()))
-        affordable = POT_SHARE * budget.total / (AIMS + SCREENING) / there
-        ways = int(np.clip(affordable, 4, MOST_WAYS)) if self._options.ways else 2
+        ways = int(np.clip(POT_SHARE * budget.total / (AIMS + SCREENING) / there, 4, 100)) if self._options.ways else 2
         shots = sight.raised(in_all_ways(tables, listed, ways))
         return self._narrowed(centred(self._evaluator, shots, AIMS)) if len(shots) else None
 
@@ -146,7 +146,7 @@ class Turn:
         shots = sweep(self._evaluator, tables, each)
         if not len(shots):
             return None
-        plain = self._evaluator.as_meant(shots, self._kitchen)[:, 0]
+        plain = self._evaluator.as_meant(shots, self._kitchen).mean()
         most = int(np.clip(0.15 * budget.total / SCREENING, 24, 400))
         return self._narrowed(shots[np.argsort(-plain, kind="stable")[:most]])
 
@@ -154,30 +154,36 @@ class Turn:
         """The best of the strokes, judged in rounds: fewer and fewer, more and more often."""
         if not len(shots):
             return None
-        self._considered += len(shots)
-        found = Finalists(shots, self._evaluator.noisy(shots, SCREENING, self._kitchen))
-        fewer = np.clip(self._evaluator.budget.total / FULL, 0.2, 1.0)
+        outcomes = self._evaluator.noisy(shots, SCREENING, self._kitchen)
         for share, copies in NARROWING:
-            found = found.best(max(FINALISTS, int(share * len(found.shots))))
+            keep = max(FINALISTS, int(share * len(shots)))
+            order = np.argsort(-outcomes.mean(), kind="stable")[:keep]
+            shots, outcomes = shots[order], outcomes[order]
             if self._evaluator.noise > 0.0:
-                found = self._again(found, max(2, round(copies * fewer)))
-        return found.best(FINALISTS)
+                copies = max(2, round(copies * np.clip(self._evaluator.budget.total / FULL, 0.2, 1.0)))
+                outcomes = outcomes.more(self._evaluator.noisy(shots, copies, self._kitchen))
+        order = np.argsort(-outcomes.mean(), kind="stable")[:FINALISTS]
+        nothing = np.zeros(len(order))
+        return Finalists(shots[order], outcomes[order], nothing, nothing.copy())
 
-    def _told_apart(self, found: Finalists) -> Finalists:
-        """The best of the finalists, played more often, fewer and fewer of them, until the budget is spent."""
-        budget, keep = self._evaluator.budget, len(found.shots)
-        while keep > 1 and self._evaluator.noise > 0.0:
-            affordable = int((1.0 - budget.spent) * budget.total / (keep * keep.bit_length()))
-            if affordable < SCREENING:
-                break
-            found = self._again(found.best(keep), min(affordable, MOST_COPIES))
-            keep //= 2
-        return found
-
-    def _again(self, found: Finalists, copies: int) -> Finalists:
-        """The same strokes, each played so many times more."""
-        more = self._evaluator.noisy(found.shots, copies, self._kitchen)
-        return Finalists(found.shots, np.concatenate((found.worths, more), axis=1))
+    def _look_ahead(self, found: Finalists) -> None:
+        """Correct all finalists by looking ahead, and then the best of them, until the budget is spent."""
+        budget = self._evaluator.budget
+        clusters, keep = 3, FINALISTS
+        while len(found.shots) > 1:
+            affordable = (1.0 - budget.spent) * budget.total / COST
+            rows = np.argsort(-found.worth, kind="stable")[:keep]
+            clusters = min(clusters, int(affordable / len(rows)))
+            if clusters < 1:
+                return
+            outcomes = found.outcomes[rows]
+            if found.looked[rows].any() and self._evaluator.noise > 0.0:
+                outcomes = self._evaluator.noisy(found.shots[rows], 24, self._kitchen)
+            found.added[rows] += clusters * correction(self._evaluator, outcomes, clusters, self._options.clusters)
+            found.looked[rows] += clusters
+            if self._evaluator.noise == 0.0:
+                return
+            clusters, keep = min(2 * clusters, 16), max(2, keep // 2)
 
     def _reckoned(self, tables: Tables) -> Thought:
         """The likeliest straight pot by geometry alone, and if there is none, anything."""
@@ -187,7 +193,7 @@ class Turn:
         if not len(shots):
             return self._anything(tables)
         best = int(listed.chance[shots.table, 0].argmax())
-        return Thought(self._action(shots, best), 0.0, self._evaluator.budget.simulated, 0)
+        return Thought(self._action(shots, best), 0.0, self._evaluator.budget.simulated)
 
     def _anything(self, tables: Tables) -> Thought:
         """A safety in the first direction in which the cue is free: nothing else was found."""
@@ -198,7 +204,7 @@ class Turn:
                 nothing = np.array([SAFETY_CALL])
                 strokes = np.array([[HARD, float(phi), theta, 0.0, 0.0]])
                 shots = Shots(tables, np.zeros(1, np.int64), strokes, nothing, nothing, np.zeros(1))
-                return Thought(self._action(shots, 0), 0.0, self._evaluator.budget.simulated, 0)
+                return Thought(self._action(shots, 0), 0.0, self._evaluator.budget.simulated)
         raise RuntimeError(f"no direction is free for the cue: {state!r}")
 
     def _action(self, shots: Shots, row: int) -> Action:

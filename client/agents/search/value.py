@@ -7,12 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from client.agents.search.race import race
-from client.agents.search.shots import Floats, Groups, Tables
+from client.agents.search.shots import CHANCE, LAYOUT, PLACED, SEEN, Floats, Groups, Tables
 from client.agents.search.sight import Sight
 from referee.rules.verdicts import OPEN, Verdicts
-
-CHANCE, SEEN, LAYOUT, PLACED = range(4)
-"""Columns of a survey."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,8 @@ import math
 import numba
 import numpy as np
 
+from client.agents.search.shots import CHANCE, LAYOUT, PLACED, SEEN
+
 WIDTH, LENGTH, RADIUS, NOSE, CUE_LENGTH, MOUTHS = 0, 1, 2, 3, 4, 5
 PER_POCKET = 5
 """Places in a table's row; from MOUTHS on, five a pocket: x, y, inward normal x, y, half length of the mouth line."""
@@ -25,10 +27,6 @@ PLACED_REACH = 0.25
 """m: with the cue ball in hand it is put this far behind the ghost ball."""
 BLOCKED = 0.8
 """Chance that a ball no pocket is open for will be made when its turn comes: others move by then, or it is banked."""
-
-CHANCE, SEEN, LAYOUT, PLACED = 0, 1, 2, 3
-"""What `survey` tells of a group: chance of its best pot, 1 if any of its balls can be struck straight, how hard
-its layout is (minus the sum of the logarithms of its balls' chances), chance with the cue ball in hand."""
 
 compiled = numba.njit(error_model="numpy", nogil=True, cache=bool(numba.config.CACHE_DIR))
 inner = numba.njit(error_model="numpy", nogil=True)
@@ -164,15 +162,21 @@ def placed(table, row, ball, ux, uy, low, high, sigma, kitchen):
 
 
 @inner
+def usual(table, low, high, sigma):
+    """Chance of a pot from where good position play leaves it; the object ball leaves between two angles (rad)."""
+    gain = USUAL_REACH / (2.0 * table[RADIUS] * USUAL_CUT)
+    return normal_between(low / gain, high / gain, sigma)
+
+
+@inner
 def survey_ball(table, row, ball, sigma, hand, kitchen, out):
     """Add one ball to what is known of its group: best pots, difficulty."""
     own, easy = 0.0, 0.0
-    gain = USUAL_REACH / (2.0 * table[RADIUS] * USUAL_CUT)
     for pocket in range(6):
         ux, uy, _, low, high = to_pocket(table, row, ball, pocket, 0)
         if low >= high:
             continue
-        easy = max(easy, normal_between(low / gain, high / gain, sigma))
+        easy = max(easy, usual(table, low, high, sigma))
         if hand:
             out[PLACED] = max(out[PLACED], placed(table, row, ball, ux, uy, low, high, sigma, kitchen))
         else:
@@ -209,10 +213,9 @@ def survey(table, positions, sigma, hand, kitchen, out):
                 survey_ball(table, row, 8, sigma, hand[n], kitchen, mine)
             else:
                 easy = 0.0
-                gain = USUAL_REACH / (2.0 * table[RADIUS] * USUAL_CUT)
                 for pocket in range(6):
                     _, _, _, low, high = to_pocket(table, row, 8, pocket, 0)
-                    easy = max(easy, normal_between(low / gain, high / gain, sigma))
+                    easy = max(easy, usual(table, low, high, sigma))
                 mine[LAYOUT] -= math.log(max(easy, BLOCKED))
 
 
