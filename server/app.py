@@ -10,6 +10,7 @@ from starlette.exceptions import HTTPException
 
 from server import failpoints, openapi
 from server.errors import ServerError, handle_fault, handle_framework_error, handle_server_error
+from server.ops.farewell import Farewell
 from server.ops.telemetry import Telemetry
 from server.routes import ROUTERS
 from server.security import keys
@@ -62,6 +63,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.house = House(context)
     app.openapi = partial(openapi.document, app)  # type: ignore[method-assign]
     app.add_middleware(BodyGate, limit=settings.body_limit, seconds=settings.body_seconds, time=context.time)
+    app.add_middleware(Farewell, draining=context.wakeups.draining)
     app.add_middleware(Telemetry, metrics=context.metrics)
     app.state.endpoints = (*app.routes, *(route for router in ROUTERS for route in router.routes))
     for router in ROUTERS:

@@ -263,7 +263,8 @@ def invalid_fields(error: ValidationError) -> Invalid:
 
 
 def _fault(found: Mapping[str, Any]) -> Fault:
-    parts = [str(part) for part in found["loc"] if not str(part).startswith("function-")]
+    # a field that the request made up has any name, of any length
+    parts = [str(shown(str(part))) for part in found["loc"] if not str(part).startswith("function-")]
     cause = found.get("ctx", {}).get("error")
     if isinstance(cause, PhysicsError):
         # what pydantic looked at may be the whole of a table: the physics knows which parameter it was

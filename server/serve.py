@@ -6,6 +6,7 @@ The address is announced, and a signal sends waiting polls home before the rest 
 import asyncio
 import gc
 import json
+import resource
 import signal
 import socket
 import sys
@@ -16,7 +17,7 @@ import uvicorn
 
 from server.app import create_app
 from server.ops import logs
-from server.security.slow_headers import http_protocol
+from server.security.connections import http_protocol
 from server.services.context import Context
 from server.settings import Settings
 
@@ -24,6 +25,8 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 SWITCH_SECONDS = 0.0005
 """How long a thread may keep the interpreter while others want it, a tenth of Python's own choice: a stroke takes
 dozens of turns with it, and each may come behind a thread that reads or writes a batch."""
+DESCRIPTORS = 65_536
+"""Open files and sockets that are enough."""
 BACKLOG = 2048
 """Connections that may wait to be accepted."""
 
@@ -75,6 +78,7 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
     Raises `SettingsError` when the database is not to be had.
     """
     logs.configure(settings.log_level)
+    _raise_descriptor_limit()
     sys.setswitchinterval(SWITCH_SECONDS)
     app = create_app(settings)
     context: Context = app.state.context
@@ -86,7 +90,7 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
 
     config = uvicorn.Config(
         app,
-        http=http_protocol(settings.header_seconds),
+        http=http_protocol(settings.header_seconds, settings.address_connections),
         ws="none",
         lifespan="on",
         access_log=False,
@@ -97,6 +101,14 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
     )
     _Server(config, context, started).run([server_socket])
     gc.freeze()  # all is closed: the interpreter's last look for garbage takes seconds on what the compiler left
+
+
+def _raise_descriptor_limit() -> None:
+    """Allow as many connections as the system does: what a shell gives, often 1,024, is soon used up."""
+    most = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
+    wanted = DESCRIPTORS if most == resource.RLIM_INFINITY else min(DESCRIPTORS, most)
+    if resource.getrlimit(resource.RLIMIT_NOFILE)[0] < wanted:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, most))
 
 
 def listening(host: str, port: int) -> socket.socket:

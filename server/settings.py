@@ -62,6 +62,9 @@ class Settings:
     stream_recheck: float = setting(1.0, "between looks of a stream that nobody woke")
     stream_keepalive: float = setting(15.0, "between comments in a stream that is silent")
     header_seconds: float = setting(10.0, "a request's headers must be complete after")
+    address_connections: int = setting(
+        2000, "connections of one address at once; 0: any number, as behind a proxy", zero=True
+    )
     body_limit: int = setting(2 * 1024 * 1024, "a request's body has at most so many bytes")
     body_seconds: float = setting(10.0, "a request's body must be complete after")
     token_rate: float = setting(200.0, "requests a second of one token; a hundred shots of a batch count as one")

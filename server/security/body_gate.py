@@ -1,4 +1,5 @@
-"""A request's body before anything looks at it: its size, the time it takes, and when it was complete.
+"""A request before anything looks at it: an address that can be looked up, the body's size, the time it takes, and when
+it was complete.
 
 The body is read as it comes in, whatever else the server is busy with, so that the end of a player's clock is
 the arrival of the last byte and not the moment somebody got round to reading it.
@@ -6,10 +7,12 @@ the arrival of the last byte and not the moment somebody got round to reading it
 
 import asyncio
 from typing import Any
+from urllib.parse import parse_qsl
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from server.errors import ServerError, SlowBody, TooLarge, render
+from referee.wire import shown
+from server.errors import NotFound, ServerError, SlowBody, TooLarge, UnsupportedMediaType, invalid_field, render
 from server.services.time import TimeSource
 
 BODILESS = frozenset({"GET", "HEAD", "OPTIONS", "DELETE"})
@@ -25,19 +28,25 @@ class BodyGate:
         self._time = time
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let the request through with its body, or answer 408 or 413 in its place."""
-        if scope["type"] != "http" or scope["method"] in BODILESS:
+        """Let the request through with its body, or answer 404, 408, 413, 415 or 422 in its place."""
+        if scope["type"] != "http":
             return await self._app(scope, receive, send)
+        body = None
         try:
-            body = await self._collect(scope, receive)
+            _require_address(scope)
+            if scope["method"] not in BODILESS:
+                body = await self._collect(scope, receive)
         except _HungUp:
             return None
         except ServerError as error:
             return await render(error, scope["path"])(scope, receive, send)
+        if body is None:
+            return await self._app(scope, receive, send)
         scope.setdefault("state", {}).update(body=body, arrived=self._time.now())
         return await self._app(scope, _replay(body, receive), send)
 
     async def _collect(self, scope: Scope, receive: Receive) -> bytes:
+        _require_plain(scope)
         if _announced_length(scope) > self._limit:
             raise self._too_large()
         try:
@@ -68,6 +77,27 @@ class BodyGate:
 
 class _HungUp(Exception):
     """The caller left before the body was complete: nobody to answer, and nothing to carry out."""
+
+
+def _require_address(scope: Scope) -> None:
+    """Raise `NotFound` or `Invalid` for an address with a NUL: no id and no name has one, and not every database may be
+    asked for one.
+    """
+    if "\0" in scope["path"]:
+        raise NotFound("there is nothing at an address with a NUL")
+    if b"%00" in scope["query_string"]:
+        for name, value in parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True):
+            if "\0" in name + value:
+                raise invalid_field(name, value, "a text without NUL")
+
+
+def _require_plain(scope: Scope) -> None:
+    """Raise `UnsupportedMediaType` for a compressed body: nothing is unpacked, so that nothing grows."""
+    for name, value in scope["headers"]:
+        if name == b"content-encoding" and value.lower() != b"identity":
+            coding = value.decode("latin-1")
+            detail = f"the body's coding is {coding!r}; nothing is unpacked"
+            raise UnsupportedMediaType(detail, field="Content-Encoding", value=shown(coding), allowed="identity")
 
 
 def _announced_length(scope: Scope) -> int:

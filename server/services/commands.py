@@ -1,6 +1,8 @@
 """A state-changing request and its answer: carried out once, however often it is sent."""
 
 import hashlib
+import json
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from email.message import Message as Headers
@@ -10,12 +12,17 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import from_json
 from sqlalchemy import Connection, bindparam, insert, select
 
-from server.errors import BadHeader, KeyReused, NotJson, UnsupportedMediaType, invalid_fields
+from referee.wire import shown
+from server.errors import BadHeader, KeyReused, NotJson, UnsupportedMediaType, invalid_field, invalid_fields
 from server.security.callers import Caller
 from server.store.locks import only_one
 from server.store.tables import answers
 
 LONGEST_KEY = 200
+LONGEST_CHECKED = 64 * 1024
+"""Bytes of a body up to which a key that comes twice is looked for: more than any but a batch of simulations has."""
+NUL = b"\\u0000"
+"""The one way to write it in JSON."""
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -65,8 +72,12 @@ def parse_body(body: bytes, content_type: str | None, model: type[M]) -> M:
     _require_json(content_type)
     try:
         content = from_json(body, allow_inf_nan=True)
+        if len(body) <= LONGEST_CHECKED and body.count(b":") != _count_keys(content):
+            json.loads(body, object_pairs_hook=_unique)
     except ValueError as error:
         raise NotJson(f"the body is not JSON: {error}", field="body", allowed="JSON in UTF-8") from error
+    if NUL in body:
+        _require_no_nul(content, ())
     try:
         return model.model_validate(content)
     except ValidationError as error:
@@ -80,6 +91,32 @@ def _require_json(content_type: str | None) -> None:
         raise UnsupportedMediaType(
             f"the body's type is {content_type!r}", field="Content-Type", allowed="application/json"
         )
+
+
+def _count_keys(content: object) -> int:
+    """Keys of all objects. Every colon outside a text belongs to one: where the counts agree no key came twice."""
+    if isinstance(content, dict):
+        return len(content) + sum(map(_count_keys, content.values()))
+    return sum(map(_count_keys, content)) if isinstance(content, list) else 0
+
+
+def _unique(pairs: list[tuple[str, object]]) -> None:
+    twice = [key for key, count in Counter(key for key, _ in pairs).items() if count > 1]
+    if twice:
+        raise ValueError(f"the key {shown(twice[0])!r} comes twice")
+
+
+def _require_no_nul(content: object, place: tuple[str, ...]) -> None:
+    """Raise `Invalid` for a text with a NUL: no name has one, and not every database can store one."""
+    if isinstance(content, str) and "\0" in content:
+        raise invalid_field(".".join(place) or "body", content, "a text without NUL")
+    if isinstance(content, dict):
+        for key, value in content.items():
+            _require_no_nul(key, (*place, "key"))
+            _require_no_nul(value, (*place, str(shown(key))))
+    if isinstance(content, list):
+        for index, value in enumerate(content):
+            _require_no_nul(value, (*place, str(index)))
 
 
 _STORED: Final = select(answers).where(*(column == bindparam(column.name) for column in answers.primary_key))

@@ -72,6 +72,7 @@ class Heartbeat:
             try:
                 await self._context.run_aside(self._beat)
             except Unavailable:
+                self._context.pulse.missed()
                 log.warning("no heartbeat: the database does not answer; the next is due in %g s", self._period)
             except Exception:
                 log.exception("no heartbeat; the next is due in %g s", self._period)
@@ -91,14 +92,14 @@ def begin(context: Context, process: str, *, alone: bool) -> None:
 def beat(context: Context, process: str, *, stopped: bool = False) -> None:
     """One more heartbeat; the first after an outage of the database gives back the time since the last."""
     with context.writing() as writing:
-        if not stopped:
+        if context.pulse.has_failed and not stopped:
             _make_up_for_outage(writing)
         _beat(writing, process, stopped)
     context.pulse.felt(writing.now)
 
 
 def _make_up_for_outage(writing: Writing) -> None:
-    """When nobody left a heartbeat for long nobody could play: of several processes the first that can sees to it."""
+    """When nobody could leave a heartbeat nobody could play: of several processes the first that can sees to it."""
     if _last_before_outage(writing) is None:
         return
     only_one(writing.connection, "outage")

@@ -14,19 +14,27 @@ class Pulse:
 
     Args:
         period: nanoseconds between two heartbeats.
+
+    Attributes:
+        has_failed: whether one failed since.
     """
 
     def __init__(self, period: int) -> None:
         self.longest_gap: Final = MISSED_BEATS * period
-        self._last: int | None = None
+        self.has_failed = False
+        self._last = 0
 
     def felt(self, now: int) -> None:
         """A heartbeat was stored."""
-        self._last = now
+        self._last, self.has_failed = now, False
+
+    def missed(self) -> None:
+        """The database did not take one. One that is merely late, on a busy machine, is none of these."""
+        self.has_failed = True
 
     def is_lost(self, now: int) -> bool:
-        """Whether too many heartbeats are missing; before the first none is."""
-        return self._last is not None and now - self._last > self.longest_gap
+        """Whether the database has not taken any for too long."""
+        return self.has_failed and now - self._last > self.longest_gap
 
     def require(self, now: int) -> None:
         """Raise `Unavailable` when the pulse is lost.

@@ -12,8 +12,8 @@ from support.server_time import StoppedTime
 
 from server.errors import TooManyRequests
 from server.security import rates
+from server.security.connections import TIMED_OUT
 from server.security.rates import Rates
-from server.security.slow_headers import TIMED_OUT
 from server.services.physics_pool import WAITING, PhysicsPool
 
 SCENE = {"balls": {"0": [0.5, 1.7]}, "shots": [{"v": 1.0, "phi": 270.0, "theta": 10.0, "a": 0.0, "b": 0.0}]}
@@ -146,7 +146,8 @@ def test_too_many_requests_name_the_token_and_the_seconds(own_server):
     problem = refused.json()
     assert problem["code"] == "too_many_requests"
     assert made["agent"]["id"] in problem["detail"]
-    assert refused.headers["retry-after"] == str(problem["value"]) == "2"
+    assert refused.headers["retry-after"] == str(problem["value"])
+    assert problem["value"] in (1, 2), "half a request a second"
     other = server.request("POST", "/v1/agents", json={"name": "bob"}).json()
     assert server.request("GET", "/v1/turns", other["token"]).status_code == 204
 

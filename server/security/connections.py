@@ -1,0 +1,82 @@
+"""What a connection may do before there is a request: one that does not finish its headers in time is closed (408,
+whatever trickles in), and so is one too many from the same address (429).
+
+The server's framework has a timeout for connections that are idle between requests, none for headers that never end,
+and no bound on one caller's share of the connections.
+"""
+
+import asyncio
+from collections import Counter
+from typing import ClassVar
+
+import h11
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+TIMED_OUT = b"HTTP/1.1 408 Request Timeout\r\nconnection: close\r\ncontent-length: 0\r\n\r\n"
+TOO_MANY = (
+    b"HTTP/1.1 429 Too Many Requests\r\nconnection: close\r\nretry-after: 1\r\ncontent-type: text/plain\r\n"
+    b"content-length: 36\r\n\r\ntoo many connections of this address"
+)
+
+
+def http_protocol(seconds: float, most: int) -> type[H11Protocol]:
+    """uvicorn's protocol, bounded.
+
+    Args:
+        seconds: from the connection, or from the first byte of a later request on it, to the end of the headers.
+        most: connections that an address may have open at once; 0: any number.
+    """
+
+    members = {"header_seconds": seconds, "most_of_an_address": most, "open_by_address": Counter()}
+    return type("Bounded", (_Bounded,), members)
+
+
+class _Bounded(H11Protocol):
+    """A connection whose headers have a deadline, one of its address's few."""
+
+    header_seconds: ClassVar[float]
+    most_of_an_address: ClassVar[int]
+    open_by_address: ClassVar[Counter[str]]
+    _deadline: asyncio.TimerHandle | None = None
+    _address: str | None = None
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """The first request's headers are awaited from now on, unless the address has too many connections."""
+        super().connection_made(transport)
+        self._address = str((transport.get_extra_info("peername") or ("unknown",))[0])
+        self.open_by_address[self._address] += 1
+        if 0 < self.most_of_an_address < self.open_by_address[self._address]:
+            transport.write(TOO_MANY)
+            transport.close()
+        else:
+            self._await_headers()
+
+    def data_received(self, data: bytes) -> None:
+        """Bytes came: part of the headers, the rest of them, or something after them."""
+        super().data_received(data)
+        if self.conn.their_state is not h11.IDLE:
+            self._stop_waiting()
+        elif self._deadline is None and self.conn.trailing_data[0]:
+            self._await_headers()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Nothing is awaited any more, and the address has a place again."""
+        self._stop_waiting()
+        if self._address is not None:
+            self.open_by_address[self._address] -= 1
+            if not self.open_by_address[self._address]:
+                del self.open_by_address[self._address]
+        super().connection_lost(exc)
+
+    def _await_headers(self) -> None:
+        self._deadline = self.loop.call_later(self.header_seconds, self._give_up)
+
+    def _stop_waiting(self) -> None:
+        if self._deadline is not None:
+            self._deadline.cancel()
+            self._deadline = None
+
+    def _give_up(self) -> None:
+        if not self.transport.is_closing():
+            self.transport.write(TIMED_OUT)
+            self.transport.close()

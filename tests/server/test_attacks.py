@@ -1,0 +1,190 @@
+"""What strangers send to break a server (docs/security.md, "The door"): a clear error, and others are served."""
+
+import gzip
+import json
+import socket
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+
+
+@pytest.fixture
+def at_break(new_table):
+    """A game before its break; afterwards it must stand as it stood."""
+    table = new_table(clock={"seconds": 600.0})
+    mover, view = table.mover()
+    yield mover, view
+    assert mover.get(f"/v1/games/{view['game']}").json()["view"]["version"] == view["version"]
+
+
+def shoot(mover, view, body, **headers):
+    sent = {"Content-Type": "application/json", "If-Match": f'"{view["version"]}"', "Idempotency-Key": "raw"}
+    return mover.request("POST", f"/v1/games/{view['game']}/shots", content=body, headers=sent | headers)
+
+
+def require(response, status, code, field):
+    problem = response.json()
+    assert (response.status_code, problem["code"], problem["field"]) == (status, code, field), problem
+    assert len(response.content) < 10_000
+    return problem
+
+
+def connected(server, source="127.0.0.1"):
+    return socket.create_connection(("127.0.0.1", server.port), timeout=30, source_address=(source, 0))
+
+
+def until_closed(connection):
+    said = b""
+    while part := connection.recv(65536):
+        said += part
+    return said
+
+
+def test_a_compressed_body_is_not_unpacked(at_break):
+    """A bomb of a gigabyte has a megabyte packed; here it is refused for being packed at all (RFC 9110, 15.5.16)."""
+    mover, view = at_break
+    bomb = gzip.compress(b" " * 50_000_000)
+    problem = require(
+        shoot(mover, view, bomb, **{"Content-Encoding": "gzip"}), 415, "unsupported_media_type", "Content-Encoding"
+    )
+    assert problem["allowed"] == "identity"
+    require(shoot(mover, view, bomb), 400, "not_json", "body")
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        b'{"shot": {"v": 1, "v": 9, "phi": 270, "theta": 20, "a": 0, "b": 0}, "cue_ball": [0.5, 1.8]}',
+        b'{"shot": {"v": 1, "phi": 270, "theta": 20, "a": 0, "b": 0}, "shot": null}',
+        b'{"x": "a:b", "x": 1}',
+        b'{"a": [{"b": 1, "b": 2}]}',
+    ],
+)
+def test_a_key_that_comes_twice_is_named(at_break, body):
+    """RFC 8259, 4: what receivers make of it is unpredictable; so nobody here has to predict it."""
+    mover, view = at_break
+    problem = require(shoot(mover, view, body), 400, "not_json", "body")
+    assert "comes twice" in problem["detail"]
+
+
+def test_a_colon_in_a_text_is_no_key(at_break):
+    mover, view = at_break
+    require(shoot(mover, view, b'{"shot": "a:b:c"}'), 422, "invalid", "shot")
+
+
+@pytest.mark.parametrize(
+    ("body", "status"),
+    [
+        (b"[" + b"1," * 500_000 + b"1]", 422),
+        (b'{"shot": [' + b"1e9," * 250_000 + b"1]}", 422),
+        (b'{"cue_ball": ' + b"9" * 1_000_000 + b"}", 400),
+        (b"-" * 1_000_000, 400),
+        (b'{"a":' * 150 + b"1" + b"}" * 150, 422),
+        (b'{"' + b"a" * 1_000_000 + b'": 1}', 422),
+    ],
+    ids=["list", "field", "digits", "signs", "deep", "key"],
+)
+def test_a_megabyte_of_numbers_is_answered_in_a_few_words(at_break, body, status):
+    mover, view = at_break
+    response = shoot(mover, view, body)
+    assert response.status_code == status, response.text
+    assert len(response.content) < 10_000
+
+
+def test_requests_sent_at_once_are_answered_in_their_order(server):
+    """RFC 9112, 9.3.2: pipelining. None is answered with what belongs to another."""
+    paths = ["/healthz", "/v1/nothing", "/v1/agents?limit=1", "/v1/games/none"] * 5
+    requests = "".join(f"GET {path} HTTP/1.1\r\nHost: x\r\n\r\n" for path in paths[:-1])
+    requests += f"GET {paths[-1]} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
+    with connected(server) as connection:
+        connection.sendall(requests.encode())
+        said = until_closed(connection).split(b"HTTP/1.1 ")[1:]
+    assert [int(answer[:3]) for answer in said] == [200, 404, 200, 404] * 5
+
+
+def test_a_stroke_sent_twice_in_one_breath_is_played_once(new_table, break_shot):
+    table = new_table(noise={"level": 0.0})
+    mover, view = table.mover()
+    body = json.dumps(break_shot).encode()
+    head = (
+        f"POST /v1/games/{view['game']}/shots HTTP/1.1\r\nHost: x\r\nAuthorization: Bearer {mover.token}\r\n"
+        f'Content-Type: application/json\r\nIdempotency-Key: once\r\nIf-Match: "{view["version"]}"\r\n'
+        f"Content-Length: {len(body)}\r\n"
+    )
+    with connected(mover.server) as connection:
+        connection.sendall((head + "\r\n").encode() + body + (head + "Connection: close\r\n\r\n").encode() + body)
+        first, second = until_closed(connection).split(b"HTTP/1.1 200 OK")[1:]
+    assert first.partition(b"\r\n\r\n")[2] == second.partition(b"\r\n\r\n")[2]
+    assert len(mover.get(f"/v1/games/{view['game']}/shots").json()["shots"]) == 1
+
+
+@pytest.mark.parametrize(
+    "request_line",
+    [
+        b"GET /healthz HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n",
+        b"GET /healthz HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nContent-Length: 6\r\n\r\nhello",
+        b"GET /healthz HTTP/1.1\r\nHost: x\r\nX: " + b"a" * 200_000 + b"\r\n\r\n",
+        b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
+        b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nContent-Length: -1\r\n\r\n",
+        b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n",
+    ],
+    ids=["both lengths", "two lengths", "long header", "no chunk", "negative", "TLS"],
+)
+def test_requests_that_are_none_are_refused(server, request_line):
+    """RFC 9112, 6.3: of a message with two lengths, or one that is none, nobody knows where it ends."""
+    with connected(server) as connection:
+        connection.sendall(request_line)
+        try:
+            said = until_closed(connection)
+        except ConnectionResetError:
+            said = b"HTTP/1.1 400 "
+    assert said.startswith((b"HTTP/1.1 400 ", b"HTTP/1.1 200 ")), said
+    assert said.count(b"HTTP/1.1 ") == 1 or b"HTTP/1.1 400" in said
+    assert server.request("GET", "/healthz").status_code == 200
+
+
+def test_chunks_without_end_are_cut_off(own_server):
+    """As large as they like: 413; as slow as they like: 408."""
+    server = own_server(POOLIAD_BODY_SECONDS="0.5", POOLIAD_BODY_LIMIT="10000")
+    head = b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n"
+    with connected(server) as slow, connected(server) as large:
+        slow.sendall(head + b"1\r\n{\r\n")
+        large.sendall(head + b"2ee0\r\n" + b" " * 12_000 + b"\r\n")
+        assert until_closed(large).startswith(b"HTTP/1.1 413 ")
+        assert until_closed(slow).startswith(b"HTTP/1.1 408 ")
+
+
+def test_connections_of_one_address_are_bounded(own_server):
+    """Those beyond the bound are told so, another address is served, and places come back."""
+    server = own_server(POOLIAD_ADDRESS_CONNECTIONS="40", POOLIAD_HEADER_SECONDS="60")
+    crowd = [connected(server, "127.0.0.2") for _ in range(40)]
+    with connected(server, "127.0.0.2") as refused:
+        said = until_closed(refused)
+    assert said.startswith(b"HTTP/1.1 429 ")
+    assert b"retry-after: 1" in said
+    assert server.request("GET", "/healthz").status_code == 200, "from 127.0.0.1"
+    for connection in crowd:
+        connection.close()
+    end = time.monotonic() + 30
+    while not said.startswith(b"HTTP/1.1 200 "):
+        assert time.monotonic() < end, said
+        with connected(server, "127.0.0.2") as connection:
+            connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
+            said = until_closed(connection)
+
+
+@pytest.mark.long
+def test_ten_thousand_connections_from_one_address(own_server, table_at):
+    """A match beside them is played; when their time is over all of them are gone."""
+    server = own_server(POOLIAD_HEADER_SECONDS="5")
+    table = table_at(server)
+    with ThreadPoolExecutor(50) as pool:
+        crowd = list(pool.map(lambda _: connected(server, "127.0.0.3"), range(10_000)))
+    table.play(4)
+    ends = [until_closed(connection)[:12] for connection in crowd]
+    assert set(ends) <= {b"HTTP/1.1 429", b"HTTP/1.1 408"}
+    assert ends.count(b"HTTP/1.1 408") <= 2000
+    for connection in crowd:
+        connection.close()
+    table.play(2)
