@@ -24,13 +24,15 @@ SEEK = "(slider, part) => { slider.value = part * slider.max; slider.dispatchEve
 
 
 @contextmanager
-def server(folder: Path) -> Iterator[str]:
-    """A server with a fresh database; its address."""
+def running(folder: Path) -> Iterator[tuple[str, "subprocess.Popen[str]"]]:
+    """A server with a fresh database: its address and its process, which ends with the block."""
     command = [sys.executable, "-m", "server", "--port", "0", "--database", f"sqlite:///{folder / 'pooliad.db'}"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
-        yield str(json.loads(process.stdout.readline())["url"])
-        process.terminate()
+        try:
+            yield str(json.loads(process.stdout.readline())["url"]), process
+        finally:
+            process.terminate()
 
 
 @contextmanager
@@ -82,7 +84,7 @@ def laboratory_picture(page: Any, url: str) -> None:
 
 def main() -> None:
     """Both pictures."""
-    with tempfile.TemporaryDirectory() as name, server(Path(name)) as url, browser() as chromium:
+    with tempfile.TemporaryDirectory() as name, running(Path(name)) as (url, _), browser() as chromium:
         page = chromium.new_page(viewport=SIZE)
         game_picture(page, url, record(Path(name)))
         laboratory_picture(page, url)

@@ -26,6 +26,7 @@
     ├── KeyReused               422
     ├── VersionRequired         428
     ├── TooManyRequests         429  says whose limit it is and how long to wait
+    │   └── TooManyStreams      429
     ├── Internal                500  a fault of ours
     ├── Draining                503
     └── Unavailable             503  the database does not answer
@@ -229,6 +230,27 @@ class TooManyRequests(ServerError):
             f"too many requests for the {key}; wait {seconds} s", field="Retry-After", value=seconds, allowed=allowed
         )
         self.key, self.seconds = key, seconds
+
+
+class TooManyStreams(TooManyRequests):
+    """Somebody watches with more streams than allowed.
+
+    Args:
+        key: whose limit it is. streams: how many are open. most: how many may be.
+    """
+
+    AGAIN = 10
+    """Seconds after which another one may have ended."""
+
+    def __init__(self, key: str, streams: int, most: int) -> None:
+        ServerError.__init__(
+            self,
+            f"the {key} has {streams} streams open; allowed: at most {most} at once",
+            field="streams",
+            value=streams,
+            allowed=f"at most {most} at once of the {key}",
+        )
+        self.key, self.seconds = key, self.AGAIN
 
 
 class Internal(ServerError):

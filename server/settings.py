@@ -71,6 +71,7 @@ class Settings:
     token_burst: float = setting(1000.0, "requests of one token at once")
     address_rate: float = setting(200.0, "requests a second of one address without a valid token")
     address_burst: float = setting(1000.0, "such requests at once")
+    streams: int = setting(64, "streams of one token, or of one address without one, that may be open at once")
     physics_threads: int = setting(2, "threads for simulations that clients ask for")
     log_level: str = setting("info", "the least that is logged: `debug`, `info`, `warning`, `error`", one_of=LOG_LEVELS)
     drain_seconds: float = setting(5.0, "the server stops at the latest so long after SIGTERM")

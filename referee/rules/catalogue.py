@@ -39,7 +39,7 @@ RULES: Final = MappingProxyType(
         "R28": "The shooter goes on only by legally pocketing the called ball in the called pocket.",
         "R29": "Other balls pocketed stay down, the opponent's included.",
         "R30": "Only the 8 is ever spotted, and only from the break.",
-        "R31": "A ball is spotted on the foot spot, or as near to it as possible on the long string.",
+        "R31": "A ball is spotted on the foot spot, or as near to it as possible on the long string, behind it first.",
         "R32": "Foul: the cue ball is pocketed or leaves the table.",
         "R33": "Foul: the ball struck first is not one the shooter may strike first.",
         "R34": "Foul: no ball is struck.",
@@ -51,7 +51,8 @@ RULES: Final = MappingProxyType(
         "R40": "A cue ball in hand is put inside the table, clear of every ball.",
         "R41": "One penalty a stroke: every foul is reported, the worst applies.",
         "R42": "Loss: the 8 pocketed on a stroke with a foul.",
-        "R43": "Loss: the 8 pocketed before the shooter's group was cleared.",
+        "R43": "Loss: the 8 pocketed before the shooter's group was cleared, on the clearing stroke or an open table "
+        "as well.",
         "R44": "Loss: the 8 in a pocket that was not called, or on a safety.",
         "R45": "Loss: the 8 off the table.",
         "R46": "Win: the 8 legally in the called pocket, the group cleared before.",
@@ -59,7 +60,7 @@ RULES: Final = MappingProxyType(
         "R48": "Concession, time-out, forfeit and the like end the game, each with its own reason.",
         "R49": "A game that does not get on is replayed by its first breaker, and drawn in the end.",
         "R50": "The match's seed decides who breaks first; then the break alternates.",
-        "R51": "A ball hanging at a pocket is settled by the simulation.",
+        "R51": "What falls before every ball rests belongs to the stroke.",
     }
 )
 """Rule id to sentence."""

@@ -65,6 +65,8 @@ class MatchRequest(Request):
         seed: the secret match seed, 64 hexadecimal digits, from which racks, noise and the first breaker
             come. Only an organiser may give one, to repeat a match; otherwise the server draws it.
         start: where every game begins instead of a break; such a match is unrated.
+        rated: whether the match is to count for ratings; one from a position or with a house bot does not, whatever
+            is asked for (an organiser's with a house bot does).
         racks: which are to be equal.
         first_breaker: seat; drawn unless an organiser gives it.
         client_seed_seconds: how long the players may add seeds of their own before the first rack; 0 starts the
@@ -94,6 +96,7 @@ class MatchRequest(Request):
     clock: ClockTerms = ClockTerms()
     seed: Digest | None = None
     start: Position | None = None
+    rated: Flag = True
     racks: RackTerms = RackTerms()
     first_breaker: Seat | None = None
     client_seed_seconds: Annotated[Number, Field(ge=0, le=LONGEST_OPENING)] = 0.0
@@ -168,7 +171,7 @@ class MatchView(Message):
         winner: seat, when finished and not drawn.
         challenger: seat of the agent who challenged; null for a match by an organiser.
         start: the position the games begin from; null when they begin with a break.
-        rated: whether the match counts for ratings; from a given position none does.
+        rated: whether the match counts for ratings.
     """
 
     id: Identifier

@@ -13,6 +13,7 @@ from server.routes.dependencies import (
     ContentType,
     Limit,
     Place,
+    Search,
     Sent,
     Server,
     Visitor,
@@ -40,13 +41,14 @@ def listing(
     context: Server,
     after: Place,
     limit: Limit,
+    search: Search,
     house: Annotated[
         str | None,
         Query(description="true: only house bots; false: all but them", json_schema_extra={"enum": ["true", "false"]}),
     ] = None,
 ) -> AgentList:
     """Agents in order of registration."""
-    return agents.listing(context, _flag("house", house), after, limit)
+    return agents.listing(context, _flag("house", house), search, after, limit)
 
 
 @router.get("/me", **describe(Forbidden), summary="The calling agent")

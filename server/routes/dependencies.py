@@ -6,7 +6,7 @@ from typing import Annotated
 from fastapi import Depends, Header, Query, Request, Response
 
 from server.errors import Unauthorized
-from server.routes.describe import NUMBER, PAGE_LIMIT, PLACE
+from server.routes.describe import NUMBER, PAGE_LIMIT, PLACE, SEARCH
 from server.security.callers import Caller, identify
 from server.security.tokens import bearer
 from server.services import pages
@@ -84,6 +84,16 @@ ANYBODY = Depends(_reader)
 """The same for an endpoint that shows everybody the same."""
 
 
+async def _watching(context: Server, caller: Reader, request: Request) -> AsyncIterator[None]:
+    """The framework ends this when the whole response is sent, or the reader is gone before its first byte."""
+    with context.limits.watching(caller, _address(request)):
+        yield
+
+
+A_PLACE_TO_WATCH = Depends(_watching)
+"""For an endpoint that answers with a stream: counts it among the reader's for as long as it lasts."""
+
+
 async def _body(request: Request) -> bytes:
     body: bytes = request.state.body
     return body
@@ -158,11 +168,20 @@ async def _limit(
     return pages.limit(limit)
 
 
+async def _search(
+    search: Annotated[
+        str | None, Query(description="only rows whose names contain this, or whose id it is", json_schema_extra=SEARCH)
+    ] = None,
+) -> str | None:
+    return pages.search(search)
+
+
 Cursor = Annotated[int, Depends(_cursor)]
 """Of a list whose rows are numbered."""
 Place = Annotated[pages.Place | None, Depends(_place)]
 """Of a list whose rows are in the order they were made."""
 Limit = Annotated[int, Depends(_limit)]
+Search = Annotated[str | None, Depends(_search)]
 
 
 def respond(answer: Answer) -> Response:

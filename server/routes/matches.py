@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query, Response
 
 from referee.wire import AcceptRequest, ClientSeedRequest, MatchList, MatchRequest, MatchView
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
-from server.routes.dependencies import ANYBODY, Limit, Place, Sent, Server, respond
+from server.routes.dependencies import ANYBODY, Limit, Place, Search, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import matches, openings
 
@@ -33,6 +33,7 @@ def listing(
     context: Server,
     after: Place,
     limit: Limit,
+    search: Search,
     agent: Annotated[str | None, Query(description="only this agent's")] = None,
     status: Annotated[
         str | None,
@@ -42,7 +43,7 @@ def listing(
     ] = None,
 ) -> MatchList:
     """An agent finds the challenges it may accept with `?agent=ID&status=challenged`."""
-    return matches.listing(context, agent, status, after, limit)
+    return matches.listing(context, agent, status, search, after, limit)
 
 
 @router.get("/{match_id}", **describe(NotFound, Unauthorized, token=False), dependencies=[ANYBODY], summary="One match")

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Depends, Header, Query, Request, Response
 from fastapi.sse import EventSourceResponse
 
 from server.errors import BadHeader, Draining, Invalid, NotFound, Unauthorized, invalid_field
-from server.routes.dependencies import ANYBODY, Server
+from server.routes.dependencies import A_PLACE_TO_WATCH, Server
 from server.routes.describe import EVENT_STREAM, NUMBER, describe
 from server.services import pages
 from server.services.spectators import Spectators
@@ -32,7 +32,7 @@ Watching = Annotated[Spectators, Depends(_spectators)]
 @router.get(
     "/games/{game_id}/stream",
     **describe(NotFound, BadHeader, Invalid, Unauthorized, Draining, success={200: EVENT_STREAM}, token=False),
-    dependencies=[ANYBODY],
+    dependencies=[A_PLACE_TO_WATCH],
     summary="Watch a game",
 )
 async def watch_game(
@@ -52,7 +52,7 @@ async def watch_game(
 @router.get(
     "/stream",
     **describe(NotFound, Invalid, Unauthorized, Draining, success={200: EVENT_STREAM}, token=False),
-    dependencies=[ANYBODY],
+    dependencies=[A_PLACE_TO_WATCH],
     summary="Watch several games",
 )
 async def watch_games(

@@ -13,7 +13,7 @@ from referee.wire import (
     VoidRequest,
 )
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
-from server.routes.dependencies import ANYBODY, Cursor, Limit, Sent, Server, respond
+from server.routes.dependencies import ANYBODY, Cursor, Limit, Search, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import events, tournaments
 
@@ -37,6 +37,7 @@ def listing(
     context: Server,
     cursor: Cursor,
     limit: Limit,
+    search: Search,
     status: Annotated[
         str | None,
         Query(
@@ -46,7 +47,7 @@ def listing(
     ] = None,
 ) -> TournamentList:
     """Of one status when asked for."""
-    return tournaments.listing(context, status, cursor, limit)
+    return tournaments.listing(context, status, search, cursor, limit)
 
 
 @router.get(

@@ -57,11 +57,18 @@ def me(context: Context, caller: Caller) -> AgentView:
         return _view(_agent(connection, caller.require_agent()))
 
 
-def listing(context: Context, house: bool | None, after: pages.Place | None, limit: int) -> AgentList:
-    """Agents in order of registration, those after a place; house bots alone, or all but them, when asked for."""
+def listing(
+    context: Context, house: bool | None, search: str | None, after: pages.Place | None, limit: int
+) -> AgentList:
+    """Agents in order of registration, those after a place.
+
+    House bots alone, or all but them, and those whose name contains something, when asked for.
+    """
     query = select(agents)
     if house is not None:
         query = query.where(agents.c.house.is_(house))
+    if search is not None:
+        query = query.where(pages.contains(agents.c.name, search) | (agents.c.id == search))
     with context.database.reading() as connection:
         rows = connection.execute(pages.oldest_first(query, agents, after, limit)).all()
     page, more = pages.cut(rows, limit)

@@ -16,7 +16,6 @@ from referee.play import nanoseconds
 from referee.wire import MatchRequest
 from referee.wire.agents import AgentName
 from server.errors import SettingsError, invalid_field
-from server.security.callers import Caller
 from server.services.agents import renewed_token
 from server.services.context import Context, Writing
 from server.store.locks import only_one
@@ -104,9 +103,16 @@ def release(context: Context, holder: str) -> None:
         writing.connection.execute(delete(house).where(house.c.holder == holder))
 
 
-def require_terms(connection: Connection, request: MatchRequest, caller: Caller) -> None:
+def is_challenged(writing: Writing, request: MatchRequest, challenger: str | None) -> bool:
+    """Whether an agent challenges a house bot; False for a match that an organiser makes."""
+    if challenger is None:
+        return False
+    return any(_is_house(writing.connection, one) for one in request.agents if one != challenger)
+
+
+def require_terms(writing: Writing, request: MatchRequest, challenger: str | None) -> None:
     """A challenge to a house bot is a short one."""
-    if caller.is_organiser or not any(_is_house(connection, one) for one in request.agents if one != caller.id):
+    if not is_challenged(writing, request, challenger):
         return
     if request.games > MOST_GAMES:
         raise invalid_field("games", request.games, f"at most {MOST_GAMES} against a house bot")

@@ -1,8 +1,10 @@
-"""Who has asked too often: by token for those who have a valid one, by address for the others."""
+"""Who has asked too often or watches too much: by token for those who have a valid one, by address for the others."""
 
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 
 from server.security.callers import Caller
+from server.security.places import Places
 from server.security.rates import Rates
 from server.services.time import TimeSource
 from server.settings import Settings
@@ -13,22 +15,24 @@ SHOTS_PER_REQUEST = 100
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """The rates of one server process."""
+    """The rates of one server process, and its streams."""
 
     callers: Rates
     addresses: Rates
+    streams: Places
 
     @classmethod
     def of(cls, settings: Settings, time: TimeSource) -> "Limits":
-        """The rates that the settings name."""
+        """What the settings name."""
         return cls(
             callers=Rates(settings.token_rate, settings.token_burst, time),
             addresses=Rates(settings.address_rate, settings.address_burst, time),
+            streams=Places(settings.streams),
         )
 
     def count(self, caller: Caller, cost: float = 1.0) -> None:
         """Count a request of somebody with a token; raises `TooManyRequests`."""
-        self.callers.take(f"token of {caller.id}", cost)
+        self.callers.take(_token(caller), cost)
 
     def count_shots(self, caller: Caller, shots: int) -> None:
         """Count the shots of a batch; raises `TooManyRequests`."""
@@ -36,4 +40,16 @@ class Limits:
 
     def count_stranger(self, address: str) -> None:
         """Count a request without a valid token; raises `TooManyRequests`."""
-        self.addresses.take(f"address {address}")
+        self.addresses.take(_address(address))
+
+    def watching(self, caller: Caller | None, address: str) -> AbstractContextManager[None]:
+        """A place to watch from, for the length of a stream; raises `TooManyStreams`."""
+        return self.streams.one(_address(address) if caller is None else _token(caller))
+
+
+def _token(caller: Caller) -> str:
+    return f"token of {caller.id}"
+
+
+def _address(address: str) -> str:
+    return f"address {address}"

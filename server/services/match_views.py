@@ -37,7 +37,7 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
         winner=winner_of(match.status, score),
         played=tuple(GameSummary(**summary(row)) for row in played),
         start=None if match.start is None else Position.model_validate(match.start),
-        rated=match.start is None,
+        rated=match.rated,
         created_at=date_time(match.created_at),
     )
 

@@ -69,9 +69,14 @@ def one(context: Context, match_id: str) -> MatchView:
 
 
 def listing(
-    context: Context, agent_id: str | None, status: str | None, after: pages.Place | None, limit: int
+    context: Context,
+    agent_id: str | None,
+    status: str | None,
+    search: str | None,
+    after: pages.Place | None,
+    limit: int,
 ) -> MatchList:
-    """Matches, the newest first, of one agent or of one status when asked for; raises `Invalid`."""
+    """Matches, the newest first, when asked for of one agent, of one status, with a player's name; raises `Invalid`."""
     query = select(matches)
     if agent_id is not None:
         query = query.where(or_(matches.c.seat_0 == agent_id, matches.c.seat_1 == agent_id))
@@ -79,6 +84,10 @@ def listing(
         if status not in STATUSES:
             raise invalid_field("status", status, f"one of {', '.join(STATUSES)}")
         query = query.where(matches.c.status == status)
+    if search is not None:
+        named = select(agents.c.id).where(pages.contains(agents.c.name, search))
+        found = or_(matches.c.seat_0.in_(named), matches.c.seat_1.in_(named), matches.c.id == search)
+        query = query.where(found)
     with context.database.reading() as connection:
         rows = connection.execute(pages.newest_first(query, matches, after, limit)).all()
         page, more = pages.cut(rows, limit)
@@ -104,8 +113,9 @@ def _created(writing: Writing, command: Command) -> Answer:
     _require_right(request, command.caller)
     _require_agents(writing.connection, request)
     _require_start(request)
-    house.require_terms(writing.connection, request, command.caller)
-    match = insert_match(writing, request, None if command.caller.is_organiser else command.caller.id)
+    challenger = None if command.caller.is_organiser else command.caller.id
+    house.require_terms(writing, request, challenger)
+    match = insert_match(writing, request, challenger)
     if match.challenger is None or house.has_place(writing, match):
         match = begin_or_wait(writing, match)
     return Answer.of(201, match_views.view(writing.connection, match), location=f"/v1/matches/{match.id}")
@@ -161,6 +171,7 @@ def insert_match(writing: Writing, request: MatchRequest, challenger: str | None
         "lag_turn": nanoseconds(writing.context.settings.lag_turn),
         "lag_game": nanoseconds(writing.context.settings.lag_game),
         "start": None if request.start is None else request.start.model_dump(mode="json"),
+        "rated": request.rated and request.start is None and not house.is_challenged(writing, request, challenger),
         "created_at": writing.now,
     }
     writing.connection.execute(insert(matches).values(row | draws.columns(request, match_id)))

@@ -1,5 +1,6 @@
 """Lists in pages. A cursor names the last row given, so that rows that come or go meanwhile move no other."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +14,7 @@ LONGEST_PAGE = 200
 LONGEST_NUMBER, LONGEST_TIME = 15, 19
 """Digits."""
 LONGEST_ID = 64
+SEARCH = r"[^\x00-\x1f\x7f]{1,64}"
 CURSOR_ALLOWED = "the next_cursor of the page before, as it came"
 
 
@@ -91,6 +93,18 @@ def limit(text: str | None) -> int:
     if not (text.isascii() and text.isdigit() and len(text) <= 3 and 1 <= int(text) <= LONGEST_PAGE):
         raise invalid_field("limit", text, f"1 to {LONGEST_PAGE}")
     return int(text)
+
+
+def search(text: str | None) -> str | None:
+    """What rows are to contain, None for anything; raises `Invalid`."""
+    if text is not None and re.fullmatch(SEARCH, text) is None:
+        raise invalid_field("search", text, "1 to 64 characters, no control characters")
+    return text
+
+
+def contains(column: Any, text: str) -> Any:
+    """Whether a text is part of a column's, capitals or not; its `%` and `_` are nothing special."""
+    return column.icontains(text, autoescape=True)
 
 
 def _is_number(text: str, longest: int) -> bool:

@@ -20,7 +20,7 @@ from referee.wire import (
     VoidRequest,
 )
 from server.errors import WrongStatus, invalid_field
-from server.services import events, tournament_views
+from server.services import events, pages, tournament_views
 from server.services.commands import Answer, Command, once, parse
 from server.services.context import Context, Writing
 from server.services.matches import call_off
@@ -81,13 +81,15 @@ def standings(context: Context, tournament_id: str) -> StandingsView:
         return tournament_views.standings_view(context, connection, events.find(connection, tournament_id))
 
 
-def listing(context: Context, status: str | None, cursor: int, limit: int) -> TournamentList:
-    """Events, the newest first, of one status when asked for; raises `Invalid`."""
+def listing(context: Context, status: str | None, search: str | None, cursor: int, limit: int) -> TournamentList:
+    """Events, the newest first, of one status or with a name when asked for; raises `Invalid`."""
     query = select(tournaments).order_by(tournaments.c.created_at.desc(), tournaments.c.id)
     if status is not None:
         if status not in events.STATUSES:
             raise invalid_field("status", status, f"one of {', '.join(events.STATUSES)}")
         query = query.where(tournaments.c.status == status)
+    if search is not None:
+        query = query.where(pages.contains(tournaments.c.name, search) | (tournaments.c.id == search))
     with context.database.reading() as connection:
         rows = connection.execute(query.offset(cursor).limit(limit + 1)).all()
         found = tuple(tournament_views.summary(row) for row in rows[:limit])

@@ -98,6 +98,7 @@ matches = Table(
     Column("lag_game", BigInteger, nullable=False),
     Column("seed", String(64), nullable=False),
     Column("start", JSON(none_as_null=True)),
+    Column("rated", Boolean, nullable=False),
     Column("rack_seed", String(64)),
     Column("paired_racks", Boolean, nullable=False),
     Column("given_breaker", Integer),

@@ -13,7 +13,10 @@ const RED = [190, 30, 40];
 const STRIPE = 0.52;
 const DISC = 0.56;
 const DOT = 0.965;
-const GLYPH = 48;
+/** Pixels of a number's square: about as many as are shown, so that its soft edges stay soft. */
+const GLYPH = 24;
+/** From ivory to black, by how much of a pixel is ink. */
+const INKS = Array.from({ length: 16 }, (_, ink) => IVORY.map((part, place) => part + (ink / 15) * (COLOURS[8][place] - part)));
 
 /** The plain colour of a ball. @param {number} ball @returns {number[]} red, green, blue */
 export function colourOf(ball) {
@@ -93,8 +96,7 @@ export class BallPictures {
     if (ball === 0) return Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > DOT ? RED : IVORY;
     const base = isStriped(ball) && Math.abs(z) > STRIPE ? IVORY : colourOf(ball);
     if (y * y + z * z > DISC * DISC || Math.abs(x) < 0.4) return base;
-    const ink = this.glyph(ball)[pixel(x > 0 ? y : -y, z)] / 255;
-    return ink > 0.5 ? COLOURS[8] : IVORY;
+    return INKS[this.glyph(ball)[pixel(x > 0 ? y : -y, z)] >> 4];
   }
 
   /** @param {number} ball @returns {Uint8ClampedArray} coverage, row by row */
@@ -104,10 +106,10 @@ export class BallPictures {
     const canvas = document.createElement("canvas");
     canvas.width = canvas.height = GLYPH;
     const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));
-    context.font = `700 ${ball > 9 ? 36 : 44}px sans-serif`;
+    context.font = `700 ${ball > 9 ? 18 : 22}px sans-serif`;
     context.textAlign = "center";
     context.textBaseline = "middle";
-    context.fillText(String(ball), GLYPH / 2, GLYPH / 2 + 2);
+    context.fillText(String(ball), GLYPH / 2, GLYPH / 2 + 1);
     const data = context.getImageData(0, 0, GLYPH, GLYPH).data;
     const coverage = data.filter((_, place) => place % 4 === 3);
     this.glyphs.set(ball, coverage);

@@ -41,6 +41,15 @@ function kept(children) {
 }
 
 /**
+ * Short facts in a row.
+ * @param {...Child} parts text or elements
+ */
+export function facts(...parts) {
+  const told = kept(parts).map((part) => (part instanceof Node ? part : el("span", {}, part)));
+  return el("span", { class: "facts" }, told);
+}
+
+/**
  * A labelled control.
  * @param {string} label
  * @param {HTMLElement} control
@@ -62,7 +71,26 @@ export function announce(text) {
   silence = setTimeout(() => { status.textContent = ""; }, SAID);
 }
 
-/** A time of the server in the reader's words. @param {string | null} text */
-export function when(text) {
-  return text ? new Date(text).toLocaleString() : "";
+const UNITS = /** @type {[Intl.RelativeTimeFormatUnit, number][]} */ ([["day", 86400], ["hour", 3600], ["minute", 60]]);
+
+/** How long ago a time of the server is; the time itself where the pointer rests. @param {string | null} text */
+export function ago(text) {
+  if (!text) return null;
+  const then = new Date(text);
+  const seconds = (then.getTime() - Date.now()) / 1000;
+  const [unit, size] = UNITS.find(([, one]) => -seconds >= one) ?? ["second", 1];
+  const told = unit === "second" ? "just now" : new Intl.RelativeTimeFormat("en").format(Math.ceil(seconds / size), unit);
+  return el("time", { datetime: text, title: then.toLocaleString() }, told);
+}
+
+/**
+ * Make a part of a drawing.
+ * @param {string} tag @param {Record<string, unknown>} [attributes] @param {...(Node | string)} children
+ * @returns {SVGElement}
+ */
+export function shape(tag, attributes = {}, ...children) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  made.append(...children);
+  return /** @type {SVGElement} */ (made);
 }

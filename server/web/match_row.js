@@ -1,6 +1,6 @@
 /** A match in a list, and its games. */
 
-import { el, when } from "./dom.js";
+import { ago, el, facts } from "./dom.js";
 import { describeOutcome } from "./words.js";
 
 /** @param {Record<string, any>} match */
@@ -8,13 +8,19 @@ export function matchRow(match) {
   const [first, second] = match.players;
   return el("article", { class: "match" },
     el("a", { href: `#/matches/${match.id}` }, `${first} – ${second}`),
-    el("span", { class: "score" }, ` ${match.score[0]} : ${match.score[1]} `),
-    el("span", { class: "facts" }, `${match.status}, ${match.games === 1 ? "1 game" : `${match.games} games`}, ${when(match.created_at)}`));
+    el("span", { class: "score" }, `${match.score[0]} : ${match.score[1]}`),
+    facts(stateMark(match.status), match.games === 1 ? "1 game" : `${match.games} games`, !match.rated && unratedMark(),
+      ago(match.created_at)));
 }
 
-/** @param {Record<string, any>} match */
-export function matchText(match) {
-  return `${match.players.join(" ")} ${match.status} ${match.id}`;
+/** How something stands: running, finished, … @param {string} status */
+export function stateMark(status) {
+  return el("span", { class: `state ${status}` }, status);
+}
+
+/** Says of a match or game that it counts for no rating. */
+export function unratedMark() {
+  return el("span", { class: "mark", title: "It counts for no rating." }, "unrated");
 }
 
 /** @param {Record<string, any>} match @param {Record<string, any>} game */
@@ -22,5 +28,5 @@ export function gameRow(match, game) {
   const told = game.outcome ? describeOutcome(game.outcome, match.players) : game.status;
   return el("article", { class: "match" },
     el("a", { href: `#/games/${game.id}` }, `Game ${game.number + 1}`),
-    el("span", { class: "facts" }, ` ${told}, ${game.strokes} strokes, ${when(game.started_at)}`));
+    facts(game.outcome ? told : stateMark(told), `${game.strokes} strokes`, ago(game.started_at)));
 }

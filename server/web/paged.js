@@ -1,7 +1,11 @@
-/** A list the server gives in pages: rows, a search over what is shown, a button for more. */
+/** A list the server gives in pages: rows, a search among all of them, a button for more. */
 
 import { get } from "./api.js";
-import { announce, el, fill, labelled } from "./dom.js";
+import { announce, el, fill } from "./dom.js";
+
+/** Time after the last letter before the server is asked, ms. */
+const PAUSE = 200;
+const LONGEST_SEARCH = 64;
 
 export class PagedList {
   /**
@@ -10,46 +14,71 @@ export class PagedList {
    * @param {string} how.path with its query
    * @param {string} how.member the answer's field with the rows
    * @param {(row: any) => HTMLElement} how.row
-   * @param {(row: any) => string} how.text what a search looks at
    * @param {string} how.empty what to say when there is nothing
    */
-  constructor({ title, path, member, row, text, empty }) {
-    Object.assign(this, { path, member, row, text, empty });
+  constructor({ title, path, member, row, empty }) {
+    Object.assign(this, { path, member, row, empty });
     /** @type {any[]} */
     this.rows = [];
     /** @type {string | null} */
     this.cursor = null;
-    this.search = /** @type {HTMLInputElement} */ (el("input", { type: "search", oninput: () => this.draw() }));
+    this.pages = 0;
+    this.timer = 0;
+    /** Counts requests: an answer that comes after a later request's is not shown. */
+    this.asked = 0;
+    this.search = /** @type {HTMLInputElement} */ (el("input", {
+      type: "search", maxlength: LONGEST_SEARCH, placeholder: "Search", "aria-label": `Search ${title.toLowerCase()}`,
+      oninput: () => this.searched(),
+    }));
     this.list = el("ul", { class: "rows" });
-    this.more = el("button", { type: "button", hidden: true, onclick: () => this.next() }, "More");
+    this.more = el("button", { type: "button", hidden: true, onclick: () => this.ask(this.cursor) }, "More");
     this.element = el("section", { class: "paged", "aria-label": title },
-      el("h2", {}, title), labelled(`Search ${title.toLowerCase()}`, this.search), this.list, this.more);
+      el("header", {}, el("h2", {}, title), this.search), this.list, this.more);
   }
 
   /** The first page, anew. */
-  async load() {
-    this.rows = [];
-    this.cursor = null;
-    await this.next();
+  load() {
+    return this.ask(null);
   }
 
-  async next() {
-    const joint = this.path.includes("?") ? "&" : "?";
-    const address = this.cursor ? `${this.path}${joint}cursor=${encodeURIComponent(this.cursor)}` : this.path;
+  /** The same, unless somebody has read further on. */
+  refresh() {
+    if (this.pages <= 1) this.load();
+  }
+
+  searched() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.load(), PAUSE);
+  }
+
+  /** One page. @param {string | null} cursor */
+  async ask(cursor) {
+    const mine = ++this.asked;
+    const wanted = this.search.value.trim();
     try {
-      const page = await get(address);
-      this.rows.push(...page[this.member]);
+      const page = await get(this.address(wanted, cursor));
+      if (mine !== this.asked) return;
+      this.rows = cursor ? [...this.rows, ...page[this.member]] : page[this.member];
+      this.pages = cursor ? this.pages + 1 : 1;
       this.cursor = page.next_cursor ?? null;
+      this.draw(wanted);
     } catch (error) {
-      announce(error instanceof Error ? error.message : "The server cannot be reached.");
+      if (mine === this.asked) announce(error instanceof Error ? error.message : "The server cannot be reached.");
     }
-    this.draw();
   }
 
-  draw() {
-    const wanted = this.search.value.trim().toLowerCase();
-    const shown = this.rows.filter((row) => this.text(row).toLowerCase().includes(wanted));
-    fill(this.list, shown.length ? shown.map((row) => el("li", {}, this.row(row))) : el("li", { class: "empty" }, this.empty));
+  address(wanted, cursor) {
+    const [path, query] = this.path.split("?");
+    const asked = new URLSearchParams(query);
+    if (wanted) asked.set("search", wanted);
+    if (cursor) asked.set("cursor", cursor);
+    return `${path}?${asked}`;
+  }
+
+  /** @param {string} wanted */
+  draw(wanted) {
+    const none = wanted ? `Nothing is called “${wanted}”.` : this.empty;
+    fill(this.list, this.rows.length ? this.rows.map((row) => el("li", {}, this.row(row))) : el("li", { class: "empty" }, none));
     this.more.hidden = this.cursor === null;
   }
 }

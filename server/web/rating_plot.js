@@ -1,6 +1,7 @@
 /** Ratings as a picture: a dot for each entrant, a line for its interval of 95 % confidence. */
 
-const SVG = "http://www.w3.org/2000/svg";
+import { shape } from "./dom.js";
+
 const WIDTH = 560;
 const NAMES = 150;
 const ROW = 26;
@@ -48,12 +49,4 @@ function ticks(low, high) {
 /** @param {string} name */
 function shortened(name) {
   return name.length > 18 ? `${name.slice(0, 17)}…` : name;
-}
-
-/** @param {string} tag @param {Record<string, unknown>} attributes @param {string} [text] */
-function shape(tag, attributes, text) {
-  const made = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
-  if (text) made.textContent = text;
-  return made;
 }

@@ -1,6 +1,7 @@
 /** Who plays, what for, how long they have, whether they are there; and the result. */
 
-import { el, fill } from "./dom.js";
+import { cssColour, isStriped } from "./ball_picture.js";
+import { el, fill, shape } from "./dom.js";
 import { describeOutcome, minutes } from "./words.js";
 
 export class Scoreboard {
@@ -20,6 +21,7 @@ export class Scoreboard {
       fill(one.name, model.players[seat]);
       const group = state?.groups?.[seat];
       fill(one.facts, [turn === seat ? "at the table" : "", group ?? ""].filter(Boolean).join(", "));
+      fill(one.balls, group ? chips(group, Object.keys(state.state).map(Number)) : "");
       fill(one.score, String(model.score?.[seat] ?? ""));
       const away = !over && model.connected !== null && !model.connected[seat];
       fill(one.presence, away ? "disconnected" : "");
@@ -41,9 +43,29 @@ export class Scoreboard {
 
 function side() {
   const name = el("strong", { class: "name" });
-  const facts = el("span", { class: "facts" });
+  const facts = el("span", { class: "seat-facts" });
+  const balls = el("span", { class: "balls" });
   const score = el("span", { class: "score", title: "games won" });
   const clock = el("span", { class: "clock" });
   const presence = el("span", { class: "presence" });
-  return { name, facts, score, clock, presence, element: el("div", { class: "side" }, name, score, facts, clock, presence) };
+  const element = el("div", { class: "side" }, name, score, facts, balls, presence, clock);
+  return { name, facts, balls, score, clock, presence, element };
+}
+
+/**
+ * The balls of a group that are still up, in small; the 8 when there are none.
+ * @param {string} group solids or stripes @param {number[]} onTable
+ */
+function chips(group, onTable) {
+  const own = onTable.filter((ball) => ball !== 0 && ball !== 8 && isStriped(ball) === (group === "stripes"));
+  const shown = own.length ? own : onTable.filter((ball) => ball === 8);
+  const picture = shape("svg", {
+    viewBox: `0 0 ${14 * Math.max(1, shown.length)} 14`, height: 14, width: 14 * Math.max(1, shown.length), role: "img",
+    "aria-label": own.length ? `${own.length} to make` : "the 8 to make",
+  });
+  shown.forEach((ball, place) => picture.append(
+    shape("circle", { cx: 14 * place + 7, cy: 7, r: 5.5, fill: isStriped(ball) ? "#f4f0e4" : cssColour(ball), class: "chip" }),
+    shape("circle", { cx: 14 * place + 7, cy: 7, r: isStriped(ball) ? 3.4 : 0, fill: cssColour(ball) }),
+  ));
+  return picture;
 }

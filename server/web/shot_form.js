@@ -1,13 +1,12 @@
 /** The five parameters of a shot: numbers and sliders, and a picture of the cue ball for side and height. */
 
-import { el, labelled } from "./dom.js";
+import { el, labelled, shape } from "./dom.js";
 import { BALL_RADIUS } from "./motion.js";
 
 /** @typedef {{v: number, phi: number, theta: number, a: number, b: number}} Shot m/s, deg, deg, mm, mm */
 
 /** Farthest the tip may be from the centre here, mm: beyond it every stroke is a miscue waiting to happen. */
 const REACH = Math.floor(BALL_RADIUS * 1000 * 0.75);
-const SVG = "http://www.w3.org/2000/svg";
 
 export class ShotForm {
   /** @param {() => void} changed */
@@ -88,11 +87,4 @@ export class ShotForm {
 
 function round(value) {
   return Math.round(value * 2) / 2;
-}
-
-/** @param {string} tag @param {Record<string, unknown>} attributes */
-function shape(tag, attributes) {
-  const made = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
-  return made;
 }

@@ -7,7 +7,7 @@ export class StrokeList {
   /** @param {(place: number) => void} choose */
   constructor(choose) {
     this.choose = choose;
-    this.list = el("ol", { class: "strokes", start: 0 });
+    this.list = el("ol", { class: "strokes" });
     this.element = el("nav", { class: "stroke-list", "aria-label": "Strokes" }, el("h2", {}, "Strokes"), this.list);
     /** @type {HTMLElement[]} */
     this.rows = [];
@@ -17,11 +17,12 @@ export class StrokeList {
   update(model) {
     for (let place = this.rows.length; place < model.entries.length; place++) {
       const entry = model.entries[place];
-      const foul = entry.ruling.fouls.length ? "foul" : entry.ruling.made ? "made" : "";
-      const button = el("button", { type: "button", class: `row ${foul}`, onclick: () => this.choose(place) },
-        el("span", { class: "who" }, model.players[entry.seat]), " ", describeAction(entry), foul && ` · ${foul}`);
+      const said = entry.ruling.fouls.length ? "foul" : entry.ruling.made ? "made" : "";
+      const button = el("button", { type: "button", class: "row", onclick: () => this.choose(place) },
+        el("span", { class: "count" }, place), " ", el("span", {}, el("span", { class: "who" }, model.players[entry.seat]), " ",
+          describeAction(entry)), " ", said && el("span", { class: `tag ${said}` }, said));
       this.rows.push(button);
-      this.list.append(el("li", { value: place }, button));
+      this.list.append(el("li", {}, button));
     }
   }
 

@@ -3,7 +3,8 @@
 import { BallPictures, cssColour, isStriped } from "./ball_picture.js";
 import { BALL_RADIUS } from "./motion.js";
 import { UPRIGHT } from "./orientation.js";
-import { FRAME, Projection, pockets } from "./projection.js";
+import { Projection, pockets } from "./projection.js";
+import { HOLE_RADIUS, box, disc, drawTable, holeOf } from "./table_ground.js";
 
 /** @typedef {import("./orientation.js").Quaternion} Quaternion */
 /**
@@ -28,15 +29,9 @@ import { FRAME, Projection, pockets } from "./projection.js";
  * @property {((context: CanvasRenderingContext2D, projection: Projection) => void)} [under]
  */
 
-const CLOTH = "#1d6b52";
-const NOSE = "#15523f";
-const WOOD = "#4a2f20";
-const HOLE = "#0c0c0d";
-const MARK = "rgb(255 255 255 / 45%)";
-export const CALL = "#ffd84d";
-/** How far behind its mouth a pocket's centre lies, and its radius, m. */
-const BEHIND = 0.03;
-const HOLE_RADIUS = 0.058;
+const CALL = "#ffd84d";
+/** Least radius of a ball in a small picture, CSS pixels: below it colours are not told apart. */
+const LEAST_DISC = 3.2;
 
 export class TablePicture {
   /**
@@ -66,7 +61,7 @@ export class TablePicture {
     this.canvas.height = Math.max(1, Math.round(projection.height * density));
     this.canvas.style.width = `${projection.width}px`;
     this.canvas.style.height = `${projection.height}px`;
-    this.drawGround();
+    drawTable(this.ground, this.canvas, projection, density);
   }
 
   /** @param {Scene} scene */
@@ -86,49 +81,9 @@ export class TablePicture {
     if (scene.cue) this.drawCue(scene.cue);
   }
 
-  drawGround() {
-    const { ground, projection, table, density } = this;
-    ground.width = this.canvas.width;
-    ground.height = this.canvas.height;
-    const context = /** @type {CanvasRenderingContext2D} */ (ground.getContext("2d"));
-    context.setTransform(density, 0, 0, density, 0, 0);
-    context.fillStyle = WOOD;
-    roundedRectangle(context, 0, 0, projection.width, projection.height, FRAME * 0.5 * projection.scale);
-    const inner = 0.045;
-    box(context, projection, -inner, -inner, table.width + inner, table.length + inner, NOSE);
-    box(context, projection, 0, 0, table.width, table.length, CLOTH);
-    for (const pocket of pockets(table)) this.drawPocket(context, pocket);
-    this.drawMarks(context);
-  }
-
-  drawPocket(context, { mouth, outward, ends }) {
-    const { projection } = this;
-    const centre = [mouth[0] + outward[0] * BEHIND, mouth[1] + outward[1] * BEHIND];
-    context.fillStyle = HOLE;
-    context.beginPath();
-    context.arc(...projection.place(centre[0], centre[1]), HOLE_RADIUS * projection.scale, 0, 2 * Math.PI);
-    context.fill();
-    context.fillStyle = CLOTH;
-    const inwards = ends.map(([x, y]) => [x - outward[0] * HOLE_RADIUS, y - outward[1] * HOLE_RADIUS]);
-    polygon(context, projection, [ends[0], ends[1], inwards[1], inwards[0]]);
-  }
-
-  drawMarks(context) {
-    const { projection, table } = this;
-    context.strokeStyle = MARK;
-    context.lineWidth = 1;
-    context.beginPath();
-    context.moveTo(...projection.place(0, 0.75 * table.length));
-    context.lineTo(...projection.place(table.width, 0.75 * table.length));
-    context.stroke();
-    context.fillStyle = MARK;
-    context.beginPath();
-    context.arc(...projection.place(table.width / 2, table.length / 4), 2, 0, 2 * Math.PI);
-    context.fill();
-  }
-
   drawArea({ x, y }) {
-    box(this.context, this.projection, x[0], y[0], x[1], y[1], "rgb(255 255 255 / 12%)");
+    this.context.fillStyle = "rgb(255 255 255 / 12%)";
+    box(this.context, this.projection, [x[0], y[0]], [x[1], y[1]]);
   }
 
   drawCalledPocket(number) {
@@ -137,8 +92,7 @@ export class TablePicture {
     context.strokeStyle = CALL;
     context.lineWidth = 3;
     context.beginPath();
-    const centre = projection.place(mouth[0] + outward[0] * BEHIND, mouth[1] + outward[1] * BEHIND);
-    context.arc(...centre, HOLE_RADIUS * projection.scale, 0, 2 * Math.PI);
+    context.arc(...holeOf(projection, { mouth, outward }), HOLE_RADIUS * projection.scale, 0, 2 * Math.PI);
     context.stroke();
   }
 
@@ -166,10 +120,11 @@ export class TablePicture {
     const radius = BALL_RADIUS * projection.scale;
     context.globalAlpha = alpha;
     if (this.plain) {
-      this.drawDisc(ball, px, py, radius);
+      this.drawDisc(ball, px, py, Math.max(LEAST_DISC, radius));
     } else {
-      context.fillStyle = "rgb(0 0 0 / 30%)";
-      disc(context, px + radius * 0.18, py + radius * 0.22, radius);
+      context.fillStyle = "rgb(0 0 0 / 16%)";
+      disc(context, px + radius * 0.3, py + radius * 0.36, radius * 1.08);
+      disc(context, px + radius * 0.16, py + radius * 0.2, radius);
       const picture = this.pictures.picture(ball, turned, radius * density, projection.axes);
       const size = picture.width / density;
       context.drawImage(picture, px - size / 2, py - size / 2, size, size);
@@ -227,28 +182,4 @@ export class TablePicture {
       context.stroke();
     }
   }
-}
-
-function disc(context, px, py, radius) {
-  context.beginPath();
-  context.arc(px, py, radius, 0, 2 * Math.PI);
-  context.fill();
-}
-
-function polygon(context, projection, points) {
-  context.beginPath();
-  for (const [x, y] of points) context.lineTo(...projection.place(x, y));
-  context.closePath();
-  context.fill();
-}
-
-function box(context, projection, x0, y0, x1, y1, colour) {
-  context.fillStyle = colour;
-  polygon(context, projection, [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]);
-}
-
-function roundedRectangle(context, x, y, width, height, radius) {
-  context.beginPath();
-  context.roundRect(x, y, width, height, radius);
-  context.fill();
 }

@@ -58,18 +58,25 @@ export class Thumbnail {
     this.picture?.draw({ balls: new Map(/** @type {any} */ (places)) });
   }
 
-  /** Draw what has moved. @param {number} now ms */
+  /** Draw what has moved. @param {number} now ms @returns {boolean} whether it goes on moving, to be seen by somebody */
   tick(now) {
-    if (!this.trace || !this.visible) return;
+    if (!this.trace || !this.visible) return false;
     const time = (now - this.began) / 1000;
-    if (time >= this.trace.duration) return this.rest(this.after);
+    if (time >= this.trace.duration) {
+      this.rest(this.after);
+      return false;
+    }
     const balls = new Map();
     for (const [ball, state] of this.trace.at(time)) if (isOnTable(state)) balls.set(ball, { position: state.position });
     this.picture?.draw({ balls });
+    return true;
   }
 }
 
-/** Draws all thumbnails, a few times a second: small pictures need no more, and thirty of them must stay cheap. */
+/** Time between two pictures, ms: small ones need no more, and thirty of them must stay cheap. */
+const PERIOD = 1000 / 15;
+
+/** Draws the thumbnails that move; while none does, nothing runs. */
 export class Gallery {
   constructor() {
     /** @type {Map<string, Thumbnail>} */
@@ -79,8 +86,21 @@ export class Gallery {
       for (const { target, isIntersecting } of entries) {
         for (const one of this.thumbnails.values()) if (one.element === target) one.visible = isIntersecting;
       }
+      this.wake();
     });
-    this.timer = setInterval(() => requestAnimationFrame((now) => this.tick(now)), 1000 / 15);
+    this.timer = 0;
+    this.closed = false;
+  }
+
+  /** An event of a game. @param {string} game @param {string} kind @param {any} data */
+  take(game, kind, data) {
+    this.thumbnails.get(game)?.take(kind, data);
+    this.wake();
+  }
+
+  /** Draw in a moment; a page that is not seen waits until it is. */
+  wake() {
+    this.timer ||= setTimeout(() => requestAnimationFrame((now) => this.tick(now)), PERIOD);
   }
 
   /** Show these games. @param {string[]} games */
@@ -100,11 +120,15 @@ export class Gallery {
   }
 
   tick(now) {
-    for (const one of this.thumbnails.values()) one.tick(now);
+    if (this.closed) return;
+    this.timer = 0;
+    const moving = [...this.thumbnails.values()].filter((one) => one.tick(now));
+    if (moving.length) this.wake();
   }
 
   close() {
-    clearInterval(this.timer);
+    this.closed = true;
+    clearTimeout(this.timer);
     this.seen.disconnect();
   }
 }

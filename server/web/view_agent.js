@@ -2,7 +2,7 @@
 
 import { get } from "./api.js";
 import { el, fill } from "./dom.js";
-import { matchRow, matchText } from "./match_row.js";
+import { matchRow } from "./match_row.js";
 import { PagedList } from "./paged.js";
 
 /** Pages of matches the table of opponents is made from. */
@@ -19,8 +19,8 @@ export class AgentView {
     const matches = await all(path);
     const seen = matches.find((match) => match.agents.includes(id));
     const name = seen ? seen.players[seen.agents.indexOf(id)] : id;
-    const list = new PagedList({ title: "Matches", path, member: "matches", row: matchRow, text: matchText, empty: "No match yet." });
-    fill(this.element, el("h1", {}, name), headToHead(matches, id), list.element);
+    const list = new PagedList({ title: "Matches", path, member: "matches", row: matchRow, empty: "No match yet." });
+    fill(this.element, el("h1", {}, name), headToHead(matches.filter((match) => match.rated), id), list.element);
     await list.load();
   }
 
@@ -52,8 +52,8 @@ function headToHead(matches, id) {
     sum.lost += match.score[1 - seat];
     met.set(other, sum);
   }
-  if (!met.size) return el("p", { class: "empty" }, "It has met nobody yet.");
-  return el("table", {}, el("caption", {}, "Head to head, in games"),
+  if (!met.size) return el("p", { class: "empty" }, "It has played no rated match yet.");
+  return el("table", {}, el("caption", {}, "Head to head, in rated games"),
     el("thead", {}, el("tr", {}, ["opponent", "won", "lost"].map((text) => el("th", { scope: "col" }, text)))),
     el("tbody", {}, [...met].map(([other, { name, won, lost }]) => el("tr", {},
       el("th", { scope: "row" }, el("a", { href: `#/agents/${other}` }, name)), el("td", {}, won), el("td", {}, lost)))));

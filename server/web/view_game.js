@@ -1,14 +1,16 @@
 /** A game: live by the server's events, over by its record's lines, or from a file; the same page for all. */
 
-import { ProblemError, call, token } from "./api.js";
-import { announce, el, fill } from "./dom.js";
+import { ProblemError, call, get, token } from "./api.js";
+import { announce, el, facts, fill } from "./dom.js";
 import { GameModel } from "./game_model.js";
 import { watchGame } from "./live.js";
+import { unratedMark } from "./match_row.js";
 import { reducedMotion } from "./playback.js";
 import { Scoreboard } from "./scoreboard.js";
 import { Stage } from "./stage.js";
 import { StrokeList } from "./stroke_list.js";
 import { StrokeStory } from "./stroke_story.js";
+import { describeNoise } from "./words.js";
 
 /** Strokes a live picture may lag behind before it jumps to the newest. */
 const LAG = 2;
@@ -23,10 +25,13 @@ export class GameView {
     this.connection = el("p", { class: "connection" });
     this.follow = /** @type {HTMLInputElement} */ (el("input", { type: "checkbox", checked: true, onchange: () => this.goOn() }));
     this.ghostButton = el("button", { type: "button", onclick: () => this.ghost() }, "Without noise");
-    this.links = el("p", { class: "links" });
+    this.links = el("span", { hidden: true });
+    this.mark = unratedMark();
+    this.mark.hidden = true;
+    this.terms = el("div", { class: "terms" });
     this.panelPart = el("div", { class: "panel-part" });
     this.element = el("article", { class: "game" },
-      this.title, this.connection, this.board.element,
+      el("header", { class: "heading" }, this.title, this.terms), this.connection, this.board.element,
       el("div", { class: "columns" },
         el("div", { class: "main-column" }, this.stage.element,
           el("div", { class: "controls" },
@@ -34,7 +39,7 @@ export class GameView {
             el("button", { type: "button", onclick: () => this.choose(this.shown + 1) }, "stroke ▸"),
             this.ghostButton,
             el("label", { class: "check" }, this.follow, "follow the game")), this.story.element),
-        el("div", { class: "side-column" }, this.panelPart, this.list.element, this.links)));
+        el("div", { class: "side-column" }, this.panelPart, this.list.element)));
     /** @type {GameModel | null} */
     this.model = null;
     this.shown = -1;
@@ -61,9 +66,18 @@ export class GameView {
   watch(game, stroke = null) {
     this.wanted = stroke;
     this.follow.checked = stroke === null;
-    this.stop = watchGame(game, (kind, data) => this.take(kind, data), (connected) => {
-      fill(this.connection, connected ? "" : "The connection is lost; trying again …");
+    this.stop = watchGame(game, {
+      told: (kind, data) => this.take(kind, data),
+      connected: (said) => fill(this.connection, said),
+      refused: (why) => this.refused(why),
     });
+  }
+
+  /** There is nothing to watch. @param {string} why */
+  refused(why) {
+    this.close();
+    fill(this.element, el("h1", {}, "No such game"), el("p", { class: "problem", role: "alert" }, why),
+      el("p", {}, el("a", { href: "#/" }, "To the lobby")));
   }
 
   /** Show a record. @param {string} text */
@@ -76,14 +90,22 @@ export class GameView {
   }
 
   begin() {
-    const { players, number, games, match, table, balls } = this.model.terms;
+    const { players, number, games, match, table, balls, noise } = this.model.terms;
     fill(this.title, `${players[0]} – ${players[1]}`);
     document.title = `${players[0]} – ${players[1]} · Pooliad`;
     this.stage.useTable(table);
     this.stage.rest(balls);
-    fill(this.links, `Game ${number + 1}${games ? ` of ${games}` : ""} `,
-      games !== null && match && el("a", { href: `#/matches/${match}` }, "of the match"));
+    const fromServer = games !== null;
+    fill(this.terms, facts(`Game ${number + 1}${fromServer ? ` of ${games}` : ""}`,
+      fromServer && match && el("a", { href: `#/matches/${match}` }, "the match"), describeNoise(noise), this.mark, this.links));
+    if (fromServer && match) this.showMark(match);
     this.board.show(this.model, null);
+  }
+
+  /** Whether the match counts is said by the match alone. @param {string} match */
+  async showMark(match) {
+    const found = await get(`/v1/matches/${encodeURIComponent(match)}`).catch(() => null);
+    this.mark.hidden = found === null || found.rated;
   }
 
   take(kind, data) {
@@ -109,8 +131,8 @@ export class GameView {
 
   over() {
     const { id } = this.model.terms;
-    fill(this.links, this.links.childNodes.length ? [...this.links.childNodes] : "",
-      " · ", el("a", { href: `/v1/games/${id}/record`, download: `${id}.jsonl` }, "record"));
+    this.links.hidden = false;
+    fill(this.links, el("a", { href: `/v1/games/${id}/record`, download: `${id}.jsonl` }, "record"));
     announce(this.board.result.textContent ?? "");
   }
 

@@ -1,8 +1,9 @@
 /** One match: its terms and its games. */
 
 import { get } from "./api.js";
-import { el, fill } from "./dom.js";
-import { gameRow } from "./match_row.js";
+import { el, facts, fill } from "./dom.js";
+import { gameRow, stateMark, unratedMark } from "./match_row.js";
+import { describeNoise } from "./words.js";
 
 export class MatchView {
   constructor() {
@@ -12,12 +13,15 @@ export class MatchView {
   /** @param {string} id */
   async open(id) {
     const match = await get(`/v1/matches/${encodeURIComponent(id)}`);
-    const noise = match.noise.level === null ? "not told" : match.noise.level;
+    const player = (seat) => el("a", { href: `#/agents/${match.agents[seat]}` }, match.players[seat]);
     fill(this.element,
-      el("h1", {}, `${match.players[0]} – ${match.players[1]}`),
-      el("p", {}, `${match.status}, score ${match.score[0]} : ${match.score[1]}, noise ${noise}, ${match.clock.seconds} s each and game`),
-      el("p", {}, match.agents.map((agent, seat) => [el("a", { href: `#/agents/${agent}` }, match.players[seat]), " "]).flat()),
-      el("ul", { class: "rows" }, match.played.map((game) => el("li", {}, gameRow(match, game)))));
+      el("header", { class: "heading" }, el("h1", {}, `${match.players[0]} – ${match.players[1]}`),
+        facts(stateMark(match.status), describeNoise(match.noise), `${match.clock.seconds} s each and game`,
+          match.start && "from a position", !match.rated && unratedMark())),
+      el("p", { class: "total panel" }, player(0), el("strong", {}, `${match.score[0]} : ${match.score[1]}`), player(1)),
+      el("h2", {}, "Games"),
+      match.played.length ? el("ul", { class: "rows panel" }, match.played.map((game) => el("li", {}, gameRow(match, game)))) :
+        el("p", { class: "empty" }, "No game has begun."));
   }
 
   close() {}

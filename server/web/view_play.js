@@ -8,6 +8,10 @@ import { GameView } from "./view_game.js";
 
 const AGAIN = 2000;
 const SECONDS = 900;
+/** How long a match may wait for the players' seeds, s: this page and shipped agents add theirs at once. */
+const SEEDS_WITHIN = 15;
+/** A match that has no rack yet, so that seeds still count. */
+const WAITING = ["challenged", "opening"];
 
 export class PlayView {
   constructor() {
@@ -43,26 +47,26 @@ export class PlayView {
     this.problem = el("p", { class: "refusal", role: "alert" });
     this.noise = /** @type {HTMLSelectElement} */ (el("select", {},
       [["0", "none"], ["0.5", "half"], ["1", "as in tournaments"]].map(([value, name]) => el("option", { value, selected: value === "0.5" }, name))));
-    const name = /** @type {HTMLInputElement} */ (el("input", { maxlength: 64 }));
+    const name = /** @type {HTMLInputElement} */ (el("input", { maxlength: 64, required: true }));
     const bots = el("div", { class: "choices" }, "Looking …");
     const challenges = el("div", { class: "choices" });
     fill(this.top, el("h1", {}, "Play"),
-      el("p", {}, "You are ", el("strong", {}, me.name), ". ",
+      el("p", {}, "You are ", el("strong", {}, me.name), ". Games played here are unrated. ",
         el("button", { type: "button", onclick: () => this.leave() }, "Sign out")),
-      this.problem,
-      el("section", { class: "panel", "aria-label": "Opponent" }, labelled("Noise of the strokes", this.noise),
-        el("h2", {}, "Against the house"), bots,
-        el("h2", {}, "Against another player"),
-        el("form", { onsubmit: (event) => { event.preventDefault(); this.challengeByName(name.value.trim()); } },
-          labelled("Name of the player", name), el("button", {}, "Challenge")),
-        el("h2", {}, "Challenges to you"), challenges));
+      this.problem, el("p", { class: "one-line" }, labelled("Noise of the strokes", this.noise)),
+      el("div", { class: "cards" },
+        el("section", { class: "panel", "aria-label": "Opponent" }, el("h2", {}, "Against the house"), bots),
+        el("section", { class: "panel", "aria-label": "Another player" }, el("h2", {}, "Against another player"),
+          el("form", { class: "one-line", onsubmit: (event) => { event.preventDefault(); this.challengeByName(name.value.trim()); } },
+            labelled("Name of the player", name), el("button", {}, "Challenge"))),
+        el("section", { class: "panel", "aria-label": "Challenges" }, el("h2", {}, "Challenges to you"), challenges)));
     this.showBots(bots);
     this.showChallenges(challenges, me);
   }
 
   async showBots(place) {
     const { agents } = await get("/v1/agents?house=true").catch(() => ({ agents: [] }));
-    fill(place, agents.length ? agents.map((bot) => el("button", { type: "button", onclick: () => this.challenge(bot.id) }, `Play ${bot.name}`)) :
+    fill(place, agents.length ? agents.map((bot) => el("button", { type: "button", class: "first", onclick: () => this.challenge(bot.id) }, `Play ${bot.name}`)) :
       el("p", { class: "empty" }, "This server keeps no house player."));
   }
 
@@ -77,21 +81,21 @@ export class PlayView {
   }
 
   async challengeByName(name) {
-    let cursor = "";
-    do {
-      const page = await get(`/v1/agents?limit=200${cursor && `&cursor=${cursor}`}`);
-      const found = page.agents.find((agent) => agent.name === name);
-      if (found) return this.challenge(found.id);
-      cursor = page.next_cursor;
-    } while (cursor);
-    fill(this.problem, `There is no player called ${name}.`);
+    await this.attempt(async () => {
+      const found = await agentCalled(name);
+      if (found) await this.challenge(found.id);
+      else fill(this.problem, `There is no player called ${name}.`);
+    });
   }
 
   async challenge(opponent) {
-    const terms = { agents: [identity().id, opponent], games: 1, noise: { level: Number(this.noise.value), told: true }, clock: { seconds: SECONDS } };
+    const terms = {
+      agents: [identity().id, opponent], games: 1, rated: false, client_seed_seconds: SEEDS_WITHIN,
+      noise: { level: Number(this.noise.value), told: true }, clock: { seconds: SECONDS },
+    };
     await this.attempt(async () => {
       const match = await command("/v1/matches", terms);
-      await command(`/v1/matches/${match.id}/seed`, { seed: newSeed() }).catch(() => null);
+      if (WAITING.includes(match.status)) await command(`/v1/matches/${match.id}/seed`, { seed: newSeed() }).catch(() => null);
       this.enter(match.id);
     });
   }
@@ -233,6 +237,19 @@ export class PlayView {
     this.aiming?.end();
     this.game?.close();
   }
+}
+
+/** The agent of exactly this name. @param {string} name */
+async function agentCalled(name) {
+  if (!name) return null;
+  let cursor = "";
+  do {
+    const page = await get(`/v1/agents?limit=200&search=${encodeURIComponent(name)}${cursor && `&cursor=${encodeURIComponent(cursor)}`}`);
+    const found = page.agents.find((agent) => agent.name === name);
+    if (found) return found;
+    cursor = page.next_cursor;
+  } while (cursor);
+  return null;
 }
 
 /** Send an action, again with the same name when the connection fails: it is carried out once. */

@@ -1,7 +1,8 @@
 /** A tournament: its standings, the ratings behind them, and every game of it. */
 
 import { get } from "./api.js";
-import { el, fill, when } from "./dom.js";
+import { ago, el, facts, fill } from "./dom.js";
+import { stateMark } from "./match_row.js";
 import { ratingPlot } from "./rating_plot.js";
 import { describeOutcome } from "./words.js";
 
@@ -11,9 +12,9 @@ const AGAIN = 5000;
 /** @param {Record<string, any>} event */
 export function tournamentRow(event) {
   return el("article", { class: "match" },
-    el("a", { href: `#/tournaments/${event.id}` }, event.name), " ",
-    el("span", { class: "facts" }, `${event.status}, ${event.format.replaceAll("_", " ")}, ${event.entrants.length} entrants, `,
-      `${event.games} games, ${when(event.created_at)}`));
+    el("a", { href: `#/tournaments/${event.id}` }, event.name),
+    facts(stateMark(event.status), event.format.replaceAll("_", " "), `${event.entrants.length} entrants`, `${event.games} games`,
+      ago(event.created_at)));
 }
 
 export class TournamentView {
@@ -35,12 +36,11 @@ export class TournamentView {
 
   show(event, standings, test, ratings) {
     if (this.closed) return;
-    fill(this.element, el("h1", {}, event.name),
-      el("p", {}, `${event.status}, ${event.format.replaceAll("_", " ")}, ${event.games} games played, ${event.due} to come`),
+    fill(this.element, el("header", { class: "heading" }, el("h1", {}, event.name),
+      facts(stateMark(event.status), event.format.replaceAll("_", " "), `${event.games} games played`, `${event.due} to come`)),
       test && el("p", {}, `Sequential test: ${test.verdict}, log-likelihood ratio ${test.llr.toFixed(2)} in (${test.bounds.map((bound) => bound.toFixed(2)).join(", ")}) after ${test.pairs} pairs`),
-      standingsTable(standings),
-      ratings.length > 1 && el("figure", {}, ratingPlot(ratings),
-        el("figcaption", {}, "Ratings above the mean in Elo points (Bradley and Terry), with intervals of 95 % confidence")),
+      el("div", { class: "halves" }, standingsTable(standings), ratings.length > 1 && el("figure", { class: "panel" }, ratingPlot(ratings),
+        el("figcaption", {}, "Ratings above the mean in Elo points (Bradley and Terry), with intervals of 95 % confidence"))),
       el("h2", {}, "Games"), gameList(event.played));
   }
 
@@ -51,16 +51,18 @@ export class TournamentView {
 
 function standingsTable(standings) {
   const columns = ["rank", "entrant", "points", "games", "won", "drawn", "lost"];
-  return el("div", { class: "scroll" }, el("table", {}, el("caption", {}, "Standings"),
-    el("thead", {}, el("tr", {}, columns.map((name) => el("th", { scope: "col" }, name)))),
+  return el("div", { class: "scroll panel" }, el("table", {}, el("caption", {}, "Standings"),
+    el("thead", {}, el("tr", {}, columns.map((name) => el("th", { scope: "col", class: name === "entrant" ? null : "number" }, name)))),
     el("tbody", {}, standings.map((one) => el("tr", {},
-      el("td", {}, one.rank),
+      el("td", { class: "number" }, one.rank),
       el("th", { scope: "row" }, el("a", { href: `#/agents/${one.agent}` }, one.name), one.withdrawn && " (withdrawn)"),
-      [one.points, one.games, one.wins, one.draws, one.losses].map((value) => el("td", {}, value)))))));
+      [one.points, one.games, one.wins, one.draws, one.losses].map((value) => el("td", { class: "number" }, value)))))));
 }
 
 function gameList(played) {
-  return el("ul", { class: "rows" }, played.map((game) => el("li", {},
-    game.match ? el("a", { href: `#/matches/${game.match}` }, game.players.join(" – ")) : game.players.join(" – "), " ",
-    el("span", { class: "facts" }, `${game.pair}, ${game.outcome ? describeOutcome(game.outcome, game.players) : game.status}`))));
+  if (!played.length) return el("p", { class: "empty" }, "No game has begun.");
+  return el("ul", { class: "rows panel" }, played.map((game) => el("li", {}, el("article", { class: "match" },
+    game.match ? el("a", { href: `#/matches/${game.match}` }, game.players.join(" – ")) : el("span", {}, game.players.join(" – ")),
+    facts(`round ${game.round + 1}`, game.pair,
+      game.outcome ? describeOutcome(game.outcome, game.players) : stateMark(game.status))))));
 }

@@ -74,6 +74,12 @@ export function describeOutcome({ winner, reason }, players) {
   return winner === null ? `Drawn: ${why}` : `${players[winner]} wins: ${why}`;
 }
 
+/** How much noise a match has. @param {{level: number | null}} noise */
+export function describeNoise({ level }) {
+  if (level === null) return "noise not told";
+  return level === 0 ? "no noise" : `noise ${level}`;
+}
+
 /** A clock. @param {number | null} seconds */
 export function minutes(seconds) {
   if (seconds === null) return "no clock";

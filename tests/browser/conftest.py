@@ -95,6 +95,14 @@ def own_server(tmp_path: Path) -> Iterator[Server]:
 
 
 @pytest.fixture
+def own_server_for_one(tmp_path: Path) -> Iterator[Server]:
+    """A server that lets an address watch once at a time."""
+    running = Server(tmp_path / "pooliad.db", POOLIAD_STREAMS="1")
+    yield running
+    running.close()
+
+
+@pytest.fixture
 def own_server_with_bot(tmp_path: Path) -> Iterator[Server]:
     """A server that keeps a house bot."""
     running = Server(tmp_path / "pooliad.db", POOLIAD_HOUSE_BOTS="random")

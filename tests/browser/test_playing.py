@@ -77,7 +77,10 @@ def challenge(hand: Hand) -> tuple[Match, int]:
     hand.page.get_by_role("button", name="Challenge").click()
     hand.page.get_by_text("Waiting for the opponent").wait_for()
     (view,) = hand.server.http.get(f"/v1/matches?agent={hand.id}").json()["matches"]
-    hand.server.send("POST", f"/v1/matches/{view['id']}/accept", other["token"])
+    accepted = hand.server.send(
+        "POST", f"/v1/matches/{view['id']}/accept", other["token"], json={"client_seed": "5" * 64}
+    )
+    assert (accepted.json()["status"], accepted.json()["rated"]) == ("running", False)
     seat = view["agents"].index(other["agent"]["id"])
     tokens = [hand.token, hand.token]
     tokens[seat] = other["token"]
@@ -241,8 +244,8 @@ def test_the_laboratory_simulates_spreads_and_writes(human):
     page.get_by_text("is no ball").wait_for()
 
 
-def test_a_house_bot_accepts_and_plays(new_page, own_server_with_bot, watched):
-    watched.forgiven = ("409 (Conflict)",)  # the player's seed comes late when the bot was quick
+def test_a_house_bot_accepts_and_plays(new_page, own_server_with_bot):
+    """An unrated game, with a seed of each player's in its draw."""
     page = new_page(reduced_motion="reduce")
     page.goto(f"{own_server_with_bot.url}/#/play")
     page.get_by_label("New here? Choose a name").fill("guest of the house")
@@ -252,3 +255,7 @@ def test_a_house_bot_accepts_and_plays(new_page, own_server_with_bot, watched):
     page.get_by_role("button", name="Concede").click()
     page.get_by_role("button", name="Really concede?").click()
     page.locator(".result", has_text="random wins: concession").wait_for(timeout=PATIENCE)
+    page.locator(".mark", has_text="unrated").wait_for()
+    (match,) = own_server_with_bot.http.get("/v1/matches").json()["matches"]
+    assert match["rated"] is False
+    assert all(match["client_seeds"])

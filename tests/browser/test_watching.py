@@ -2,6 +2,7 @@
 
 import json
 import signal
+import uuid
 from pathlib import Path
 
 from support.play_along import act, next_turn, play_on
@@ -77,13 +78,14 @@ def test_the_lobby_shows_what_is_played_and_leads_there(page, server):
     small = page.locator("a.thumbnail", has_text="lobby ann – lobby bob")
     small.wait_for()
     play_on(match)
-    page.get_by_label("Search agents").fill("lobby b")
-    page.get_by_role("link", name="lobby bob", exact=True).wait_for()
-    assert page.get_by_role("region", name="Agents").get_by_role("listitem").count() == 1
+    page.get_by_label("Search agents").fill("LOBBY B")
+    one = page.get_by_role("region", name="Agents").get_by_role("listitem")
+    page.wait_for_function("() => document.querySelectorAll('[aria-label=Agents] li').length === 1")
+    assert one.inner_text() == "lobby bob"
     page.get_by_label("Search matches").fill("nobody of this name")
-    assert page.get_by_role("region", name="Matches").get_by_text("No match yet.").is_visible()
+    page.get_by_role("region", name="Matches").get_by_text("Nothing is called “nobody of this name”.").wait_for()
     page.get_by_role("link", name="lobby bob", exact=True).click()
-    page.get_by_role("table", name="Head to head, in games").wait_for()
+    page.get_by_role("table", name="Head to head, in rated games").wait_for()
     page.get_by_role("link", name="lobby ann – lobby bob").click()
     page.get_by_role("link", name="Game 1").click()
     page.get_by_role("heading", name="lobby ann – lobby bob").wait_for()
@@ -119,8 +121,70 @@ def test_nothing_there_is_said(page, server, watched):
     page.locator(".problem", has_text="no match").wait_for()
     page.goto(f"{server.url}/#/nowhere")
     page.get_by_text("There is nothing at /nowhere.").wait_for()
+
+
+def test_a_game_there_is_not_is_asked_for_once_and_said_to_be_none(page, server, watched):
+    watched.forgiven = ("404",)
+    asked = []
+    page.on("request", lambda request: asked.append(request.url) if "game_none" in request.url else None)
     page.goto(f"{server.url}/#/games/game_none")
-    page.locator(".connection", has_text="lost").wait_for()
+    page.get_by_role("heading", name="No such game").wait_for()
+    page.locator(".problem", has_text="there is no game game_none").wait_for()
+    before = len(asked)
+    page.wait_for_timeout(2500)  # twice the time after which a lost connection is tried again
+    assert len(asked) == before <= 2
+    page.get_by_role("link", name="To the lobby").click()
+    page.get_by_role("heading", name="Lobby").wait_for()
+
+
+def test_a_refused_stream_says_why_and_is_tried_again(new_page, own_server_for_one, watched):
+    """One stream an address: a second page is told so, and comes in when the first is closed."""
+    watched.forgiven = ("429",)
+    match = own_server_for_one.match()
+    first, second = new_page(), new_page()
+    for page in (first, second):
+        page.goto(f"{own_server_for_one.url}/#/games/{match.game}")
+        if page is first:
+            page.get_by_role("heading", level=1).filter(has_text="–").wait_for()
+    second.locator(".connection", has_text="1 streams open; allowed: at most 1").wait_for()
+    first.goto(f"{own_server_for_one.url}/#/lab")
+    second.get_by_role("heading", level=1).filter(has_text="–").wait_for()
+    second.wait_for_function("() => document.querySelector('.connection').textContent === ''")
+
+
+def test_the_search_finds_what_no_page_has_shown_yet(page, server):
+    """Names far behind the first page are found by the server, and given in pages again."""
+    mark = uuid.uuid4().hex[:8]
+    for number in range(55):
+        server.register(f"{mark} {number:02}")
+    page.goto(server.url)
+    agents = page.get_by_role("region", name="Agents")
+    agents.get_by_label("Search agents").fill(mark.upper())
+    agents.get_by_role("link", name=f"{mark} 49").wait_for()
+    page.wait_for_function("() => document.querySelectorAll('[aria-label=Agents] li').length === 50")
+    agents.get_by_role("button", name="More").click()
+    agents.get_by_role("link", name=f"{mark} 54").wait_for()
+    assert agents.get_by_role("listitem").count() == 55
+    agents.get_by_label("Search agents").fill(f"{mark} 5")
+    page.wait_for_function("() => document.querySelectorAll('[aria-label=Agents] li').length === 5")
+
+
+def test_unrated_games_are_marked_wherever_they_are_shown(page, server):
+    """With a break or from a position; what counts is not marked, and head to head counts nothing else."""
+    for rated in (True, False):
+        match = server.match(rated=rated, names=(f"rated {rated} ann", f"rated {rated} bob"))
+        concede(match)
+        for address in (f"matches/{match.id}", f"games/{match.game}"):
+            page.goto(f"{server.url}/#/{address}")
+            page.get_by_role("heading", level=1).filter(has_text=f"rated {rated} ann").wait_for()
+            page.wait_for_load_state("networkidle")
+            assert page.locator(".mark", has_text="unrated").is_visible() is not rated
+        page.goto(f"{server.url}/#/agents/{match.view['agents'][0]}")
+        expected = page.get_by_role("table", name="Head to head") if rated else page.get_by_text("no rated match yet")
+        expected.wait_for()
+        row = page.get_by_role("region", name="Matches").get_by_role("listitem")
+        row.get_by_text("finished").wait_for()
+        assert row.locator(".mark").count() == (0 if rated else 1)
 
 
 def test_the_turn_of_both_is_played_by_the_same_hands(server):

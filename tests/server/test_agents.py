@@ -1,5 +1,9 @@
 """CONTRACT, HTTP: agents and tokens."""
 
+import uuid
+
+import pytest
+
 from server.store.database import Database
 from server.store.tables import metadata
 
@@ -84,3 +88,32 @@ def test_the_list_is_complete_in_pages(server, new_player):
 def test_a_server_without_an_organiser_token_has_no_organiser(own_server, organiser):
     running = own_server(POOLIAD_ORGANISER_TOKEN="")
     assert running.request("GET", "/v1/turns", organiser.token).status_code == 401
+
+
+def test_a_search_finds_names_by_any_part_of_them_in_pages(server, new_player):
+    """Capitals or not; what is special in SQL is not here; an id is found too."""
+    mark = uuid.uuid4().hex[:8]
+    names = [f"{mark} Ann_1", f"{mark} ann 2", f"{mark} bob"]
+    ids = [server.request("POST", "/v1/agents", json={"name": name}).json()["agent"]["id"] for name in names]
+
+    def found(search, **params):
+        answer = server.request("GET", "/v1/agents", params={"search": search} | params)
+        assert answer.status_code == 200, answer.text
+        return answer.json()
+
+    assert [one["id"] for one in found(f"{mark} ANN")["agents"]] == ids[:2]
+    assert [one["id"] for one in found(f"{mark} ann_")["agents"]] == ids[:1]
+    assert found(f"{mark}%")["agents"] == []
+    assert [one["id"] for one in found(ids[2])["agents"]] == ids[2:]
+    first = found(mark, limit=2)
+    rest = found(mark, limit=2, cursor=first["next_cursor"])
+    assert [one["id"] for one in first["agents"] + rest["agents"]] == ids
+    assert rest["next_cursor"] is None
+
+
+@pytest.mark.parametrize("route", ["agents", "matches", "tournaments"])
+@pytest.mark.parametrize("bad", ["", "x" * 65, "a\x00b", "\n"])
+def test_what_cannot_be_searched_for_is_named(server, route, bad):
+    problem = server.request("GET", f"/v1/{route}", params={"search": bad})
+    assert (problem.status_code, problem.json()["field"]) == (422, "search")
+    assert "64" in problem.json()["allowed"]

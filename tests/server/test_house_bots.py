@@ -79,10 +79,20 @@ def test_a_bot_accepts_at_once_and_plays(house_server, player_at):
     player = player_at(server)
     made = challenge(player, bot, start={"balls": {"0": [0.5, 1.7], "3": [0.4, 0.6], "8": [0.9, 0.4]}, "turn": 1})
     assert (made.status_code, made.json()["status"], made.json()["challenger"]) == (201, "running", 0)
+    assert made.json()["rated"] is False
     game = made.json()["played"][0]["id"]
     until(lambda: player.get(f"/v1/games/{game}/shots").json()["shots"])
     playing_alone(player, made.json()["id"])
     assert player.get("/v1/agents", house="false").json()["agents"] == [player.get("/v1/agents/me").json()]
+
+
+def test_a_game_with_a_bot_is_unrated_unless_an_organiser_makes_it(house_server, player_at, organiser):
+    server = house_server()
+    bot, player = bot_of(server), player_at(server)
+    organiser = type(player)(server, organiser.id, organiser.token)
+    assert challenge(player, bot, rated=True).json()["rated"] is False
+    request = {"agents": [player.id, bot["id"]]}
+    assert organiser.post("/v1/matches", request).json()["rated"] is True
 
 
 def test_a_killed_bot_is_started_again_and_goes_on_with_its_turn(house_server, player_at):

@@ -147,3 +147,30 @@ def test_matches_of_a_status_there_is_not_are_refused(server):
     problem = response.json()
     assert (problem["code"], problem["field"], problem["value"]) == ("invalid", "status", "zzz")
     assert problem["allowed"] == "one of challenged, opening, running, finished, aborted"
+
+
+def test_matches_are_searched_by_their_players_names(server, organiser, new_player):
+    ann, bob, cat = (new_player() for _ in range(3))
+    names = {
+        one["id"]: one["name"] for one in server.request("GET", "/v1/agents", params={"limit": 200}).json()["agents"]
+    }
+    first, second = (organiser.post("/v1/matches", {"agents": [one.id, cat.id]}).json()["id"] for one in (ann, bob))
+
+    def found(search, **params):
+        answer = server.request("GET", "/v1/matches", params={"search": search} | params).json()
+        return [one["id"] for one in answer["matches"]]
+
+    assert found(names[ann.id]) == [first]
+    assert found(names[cat.id].upper()) == [second, first]
+    assert found(names[cat.id], agent=bob.id) == [second]
+    assert found(names[cat.id], status="finished") == []
+    assert found(second) == [second]
+
+
+def test_a_match_may_be_asked_for_that_does_not_count(organiser, new_player):
+    ann, bob = new_player(), new_player()
+    terms = {"agents": [ann.id, bob.id], "rated": False}
+    assert ann.post("/v1/matches", terms).json()["rated"] is False
+    assert organiser.post("/v1/matches", terms | {"rated": True}).json()["rated"] is True
+    problem = ann.post("/v1/matches", terms | {"rated": 0})
+    assert (problem.status_code, problem.json()["field"]) == (422, "rated")

@@ -189,3 +189,30 @@ def test_a_level_that_is_not_told_is_not_told_to_spectators(server, new_table):
     table = new_table(noise={"level": 1.0, "told": False})
     with watching(server, f"/v1/games/{table.game}/stream") as events:
         assert next(events).data["view"]["noise"] == {"told": False, "level": None}
+
+
+def test_the_streams_of_an_address_and_of_a_token_are_counted_apart(own_server, table_at):
+    """docs/protocol.md, limits: the problem names whose limit it was, how many are open and how many may be."""
+    server = own_server(POOLIAD_STREAMS="2")
+    table = table_at(server)
+    path, token = f"/v1/games/{table.game}/stream", {"Authorization": f"Bearer {table.players[0].token}"}
+    with watching(server, path) as events, watching(server, f"/v1/stream?game={table.game}"):
+        until(events, "connections")
+        refused = server.request("GET", path)
+        problem = refused.json()
+        assert (refused.status_code, problem["code"], refused.headers["retry-after"]) == (
+            429,
+            "too_many_requests",
+            "10",
+        )
+        assert (problem["field"], problem["value"]) == ("streams", 2)
+        assert problem["allowed"] == "at most 2 at once of the address 127.0.0.1"
+        with watching(server, path, **token), watching(server, path, **token):
+            answer = server.request("GET", path, headers=token)
+            assert answer.json()["allowed"] == f"at most 2 at once of the token of {table.players[0].id}"
+    end = time.monotonic() + 30
+    for _ in range(5):  # what was refused or is over holds no place, once the server has seen that the reader is gone
+        while (status := server.request("GET", "/v1/games/game_none/stream").status_code) == 429:
+            assert time.monotonic() < end
+            time.sleep(0.05)
+        assert status == 404

@@ -96,3 +96,8 @@ def test_everything_not_simulated_is_explained() -> None:
     by_hand = [row[0] for row in RULE_ROWS if row[4] == "by hand"]
     assert by_hand == ["R16", "R36", "R45"]
     assert all(names_rule(limits, rule) for rule in by_hand)
+
+
+def test_the_page_says_a_rule_in_the_words_of_the_document() -> None:
+    """The page explains rule ids by the catalogue: one wording, wherever an id is explained."""
+    assert {row[0]: row[1] for row in RULE_ROWS} == dict(RULES)

@@ -110,6 +110,7 @@ def _create_play() -> None:
         sa.Column("lag_game", sa.BigInteger(), nullable=False),
         sa.Column("seed", sa.String(length=64), nullable=False),
         sa.Column("start", sa.JSON(), nullable=True),
+        sa.Column("rated", sa.Boolean(), nullable=False),
         sa.Column("rack_seed", sa.String(length=64), nullable=True),
         sa.Column("paired_racks", sa.Boolean(), nullable=False),
         sa.Column("given_breaker", sa.Integer(), nullable=True),
