@@ -104,6 +104,7 @@ export class Aiming {
       type: "button", onclick: () => this.act({ decision }),
     }, decision.replaceAll("_", " "))));
     this.element.hidden = false;
+    this.element.dataset.version = String(view.version);
     this.stage.rest(this.balls);
     if (this.canShoot) this.form.set({ phi: this.firstAim(), ...(view.phase === "break" && { v: 9 }) });
   }

@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 import uuid
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
@@ -20,7 +21,12 @@ from support.require import require
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 ORGANISER = "organiser-of-the-browser-tests-0123456789"
-PATIENCE = 150.0
+PATIENCE = 300.0
+"""Seconds: after a change of the kernels the first server compiles them before it is ready."""
+A_LOADED_MACHINE = 60.0
+"""Seconds that a page may take for anything."""
+ROOMY = {"POOLIAD_NO_SHOW_SECONDS": "86400"}
+"""However slowly the tests play, nobody loses for it."""
 
 _names = itertools.count()
 
@@ -30,7 +36,7 @@ class Server:
 
     def __init__(self, database: Path, **environment: str) -> None:
         self._database, self._port = database, 0
-        self._environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER} | environment
+        self._environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER} | ROOMY | environment
         self._log = database.with_suffix(".log").open("ab")
         self.start()
 
@@ -47,6 +53,10 @@ class Server:
         self.url = json.loads(self.process.stdout.readline())["url"]
         self._port = int(self.url.rpartition(":")[2])
         self.http = httpx2.Client(base_url=self.url, timeout=PATIENCE)
+        end = time.monotonic() + PATIENCE
+        while self.http.get("/readyz").status_code != 200:
+            assert time.monotonic() < end, "the server is not ready"
+            time.sleep(0.05)
 
     def stop(self, number: int = signal.SIGTERM) -> None:
         self.http.close()
@@ -72,7 +82,8 @@ class Server:
     def match(self, *, games: int = 1, names: tuple[str, str] = ("", ""), **terms: Any) -> Match:
         """A running match of two fresh agents."""
         players = [self.register(name) for name in names]
-        request = {"agents": [one["agent"]["id"] for one in players], "games": games, "seed": "5" * 64} | terms
+        agents = [one["agent"]["id"] for one in players]
+        request = {"agents": agents, "games": games, "seed": "5" * 64, "clock": {"seconds": 3600}} | terms
         made = self.send("POST", "/v1/matches", json=request)
         assert made.status_code == 201, made.text
         return Match(self, made.json(), [one["token"] for one in players])
@@ -159,7 +170,7 @@ def new_page(browser: Any, watched: Watched) -> Iterator[Callable[..., Any]]:
 
     def make(width: int = 1200, height: int = 900, **options: Any) -> Any:
         context = browser.new_context(viewport={"width": width, "height": height}, **options)
-        context.set_default_timeout(20_000)
+        context.set_default_timeout(1000 * A_LOADED_MACHINE)
         contexts.append(context)
         page = context.new_page()
         watched.watch(page)

@@ -108,8 +108,8 @@ def test_a_breach_of_the_policy_is_seen(page, server, watched):
     page.goto(server.url)
     with pytest.raises(Exception, match="TrustedHTML"):
         page.evaluate("document.body.innerHTML = '<b>x</b>'")
-    page.evaluate("fetch('http://127.0.0.1:9/').catch(() => {})")
-    page.wait_for_timeout(200)
+    with page.expect_console_message(lambda told: "Content Security Policy" in told.text):
+        page.evaluate("fetch('http://127.0.0.1:9/').catch(() => {})")
     assert any("Content Security Policy" in fault for fault in watched.faults)
     watched.forgiven = ("",)
 

@@ -2,6 +2,9 @@
 
 import json
 import re
+import time
+import uuid
+from pathlib import Path
 
 import pytest
 from support.play_along import Match, act
@@ -9,11 +12,13 @@ from support.players import Potter
 
 import physics
 from client import notation
+from referee.record import verify_record
 from referee.wire import View
 
 FRAME = 0.11
 """Width of the frame drawn around the cushion noses, m."""
-PATIENCE = 60_000
+PATIENCE = 150_000
+"""Milliseconds for a turn to come; a bot starts and thinks meanwhile."""
 
 
 class Hand:
@@ -31,7 +36,7 @@ class Hand:
 
     def take_turn(self, view: View) -> None:
         """Do by the controls what the potter would do."""
-        turn = self.page.get_by_role("region", name="Your turn")
+        turn = self.page.locator(f'section.turn[data-version="{view.version}"]')  # not the one before, still shown
         turn.wait_for(timeout=PATIENCE)
         action = self.potter(view)
         if action.decision is not None:
@@ -62,9 +67,13 @@ class Hand:
 @pytest.fixture
 def human(new_page, server) -> Hand:
     """At the page Play, signed in under a new name; without animations, as whoever prefers so."""
-    page = new_page(reduced_motion="reduce")
+    return sat_down(new_page(reduced_motion="reduce"), server)
+
+
+def sat_down(page, server) -> Hand:
+    """Signed in under a new name."""
     page.goto(f"{server.url}/#/play")
-    page.get_by_label("New here? Choose a name").fill(f"human {id(page)}")
+    page.get_by_label("New here? Choose a name").fill(f"human {uuid.uuid4().hex}")
     page.get_by_role("button", name="Begin").click()
     page.get_by_text("You are").wait_for()
     return Hand(page, server)
@@ -87,11 +96,11 @@ def challenge(hand: Hand) -> tuple[Match, int]:
     return Match(hand.server, view, tokens), seat
 
 
-def seated(hand: Hand) -> tuple[Match, int]:
-    """A match that is the same every time; the hand has seat 0 and breaks, the other has seat 1."""
+def seated(hand: Hand, **terms) -> tuple[Match, int]:
+    """A match that is the same every time; the hand has seat 0 and begins, the other has seat 1."""
     other = hand.server.register()
-    request = {"agents": [hand.id, other["agent"]["id"]], "seed": "d" * 64, "first_breaker": 0, "noise": {"level": 0.0}}
-    made = hand.server.send("POST", "/v1/matches", json=request | {"clock": {"seconds": 3600}})
+    request = {"agents": [hand.id, other["agent"]["id"]], "seed": "d" * 64, "noise": {"level": 0.0}}
+    made = hand.server.send("POST", "/v1/matches", json=request | {"clock": {"seconds": 3600}} | terms)
     assert made.status_code == 201, made.text
     return Match(hand.server, made.json(), [hand.token, other["token"]]), 1
 
@@ -113,7 +122,8 @@ def play_out(hand: Hand, match: Match, other: int, most: int) -> bool:
 
 def wait_for_version(hand: Hand, match: Match, view: View) -> None:
     """Until the server has what the page sent; a refusal shows on the page and fails here."""
-    for _ in range(100):
+    end = time.monotonic() + PATIENCE / 1000
+    while time.monotonic() < end:
         if hand.view(match.game).version > view.version:
             return
         hand.page.wait_for_timeout(50)
@@ -122,7 +132,7 @@ def wait_for_version(hand: Hand, match: Match, view: View) -> None:
 
 def test_a_whole_game_is_played_by_hand(human):
     """From the break to the result, every stroke by the page's controls; the page finds the match that waits."""
-    match, other = seated(human)
+    match, other = seated(human, first_breaker=0)
     human.page.reload()
     human.page.get_by_role("heading", level=1).filter(has_text="–").wait_for()
     assert play_out(human, match, other, 400)
@@ -135,6 +145,48 @@ def test_a_whole_game_is_played_by_hand(human):
     strokes = human.server.http.get(f"/v1/games/{match.game}/shots?limit=200").json()["shots"]
     by_hand = [one for one in strokes if one["seat"] != other]
     assert len([one for one in by_hand if one["shot"]]) >= 3
+
+
+START = {
+    "balls": {
+        "0": [0.56, 1.7],
+        "8": [0.56, 0.3],
+        "2": [0.15, 0.4],
+        "5": [0.9, 1.2],
+        "7": [0.3, 1.9],
+        "9": [0.2, 1.1],
+        "12": [0.95, 0.25],
+        "15": [0.6, 1.0],
+    },
+    "groups": ["solids", "stripes"],
+}
+"""Three balls for each, and the 8: docs/protocol.md, Games from a position."""
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_whole_game_from_a_position_is_played_by_hand(new_page, server, scheme):
+    """With noise, on a phone, groups fixed from the start; marked as unrated, and its record is true."""
+    page = new_page(390, 844, color_scheme=scheme, reduced_motion="reduce", has_touch=True, is_mobile=True)
+    human = sat_down(page, server)
+    match, other = seated(human, start=START, noise={"level": 0.3})
+    page.reload()
+    page.get_by_role("heading", level=1).filter(has_text="–").wait_for()
+    page.locator(".mark", has_text="unrated").wait_for()
+    page.get_by_role("img", name="3 to make").first.wait_for()
+    assert play_out(human, match, other, 400)
+    page.locator(".result", has_text=re.compile("wins|Drawn")).wait_for()
+    view = human.view(match.game)
+    page.locator("ol.strokes li").nth(view.version - 2).wait_for()
+    assert page.locator("ol.strokes li").count() == view.version - 1
+    assert "break" not in page.locator("ol.strokes li").first.inner_text()
+    with page.expect_download() as download:
+        page.get_by_role("link", name="record").click()
+    lines = Path(download.value.path()).read_text().splitlines()
+    assert verify_record(lines).ok
+    strokes = [json.loads(line) for line in lines[1:-2]]
+    assert len([one for one in strokes if one["seat"] != other]) >= 3
+    page.get_by_role("button", name="Play again").wait_for()
 
 
 def test_a_challenge_by_name_is_accepted_and_conceded(human):
@@ -151,7 +203,7 @@ def test_a_challenge_by_name_is_accepted_and_conceded(human):
 
 def test_the_cue_ball_is_dragged_and_the_cue_aimed_by_mouse_and_keys(human):
     """The break by pointer: an illegal place is shown as one; a drag beside the ball aims; arrows turn and speed up."""
-    match, _ = seated(human)
+    match, _ = seated(human, first_breaker=0)
     page = human.page
     page.reload()
     turn = page.get_by_role("region", name="Your turn")

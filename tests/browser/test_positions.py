@@ -101,7 +101,7 @@ def test_a_record_file_replays_without_the_server(page, own_server, watched, tmp
     page.goto(own_server.url)
     page.get_by_label("Look at a record").wait_for()
     own_server.process.terminate()
-    own_server.process.wait(20)
+    own_server.process.wait(60)
     page.get_by_label("Look at a record").set_input_files(file)
     page.locator("ol.strokes li").nth(len(game.strokes) - 1).wait_for()
     assert page.locator("ol.strokes li").count() == len(game.strokes)

@@ -35,6 +35,7 @@ def test_a_live_game_is_watched_to_its_end(page, server):
     page.get_by_role("checkbox", name="follow the game").uncheck()
     page.locator("ol.strokes button").nth(0).click()
     page.locator(".row[aria-current]", has_text="break").wait_for()
+    page.get_by_label("Speed").select_option("0.25")  # time to stop it before its end
     page.get_by_role("button", name="Play", exact=True).click()
     page.wait_for_function("() => parseFloat(document.querySelector('output.time').textContent) > 0.3")
     page.get_by_role("button", name="Pause").click()
