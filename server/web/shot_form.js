@@ -77,7 +77,8 @@ export class ShotForm {
   write() {
     for (const [name, { slider, number }] of Object.entries(this.fields)) {
       slider.value = String(this.shot[name]);
-      number.value = String(Math.round(this.shot[name] * 1000) / 1000);
+      const rounded = Math.round(this.shot[name] * 1000) / 1000;
+      number.value = String(name === "phi" ? rounded % 360 : rounded);
     }
     const scale = 48 / (BALL_RADIUS * 1000);
     this.dot.setAttribute("cx", String(this.shot.a * scale));
