@@ -20,6 +20,8 @@ from referee.wire import (
     ClockLedger,
     DisqualifyRequest,
     GameAnswer,
+    InvitationRequest,
+    Invitations,
     KeyList,
     MatchList,
     MatchRequest,
@@ -29,6 +31,9 @@ from referee.wire import (
     SimulateAnswer,
     StandingsView,
     StrokeAnswer,
+    TokenList,
+    TokenRequest,
+    TokenSecret,
     TournamentList,
     TournamentRequest,
     TournamentStatus,
@@ -91,6 +96,26 @@ class AsyncPooliad:
     async def revoke_token(self, agent: str) -> None:
         """Make an agent's token worthless."""
         return await self._send(calls.revoke_token(agent))
+
+    async def create_staff_token(self, request: TokenRequest) -> TokenSecret:
+        """Make a token for an organiser, an administrator or a reader (administrator); it is shown this once."""
+        return await self._send(calls.create_staff_token(request))
+
+    async def staff_tokens(self, cursor: str | None = None) -> TokenList:
+        """One page of the tokens that are not agents', without the tokens themselves (administrator)."""
+        return await self._send(calls.staff_tokens(cursor))
+
+    async def rotate_staff_token(self, token_id: str) -> TokenSecret:
+        """Replace such a token by a new one under the same id (administrator)."""
+        return await self._send(calls.rotate_staff_token(token_id))
+
+    async def revoke_staff_token(self, token_id: str) -> None:
+        """Make such a token worthless (administrator)."""
+        return await self._send(calls.revoke_staff_token(token_id))
+
+    async def invite(self, count: int = 1, *, seconds: float | None = None) -> Invitations:
+        """Codes, each good for one registration within so many seconds (organiser)."""
+        return await self._send(calls.invite(InvitationRequest(count=count, seconds=seconds)))
 
     async def create_match(self, request: MatchRequest) -> MatchView:
         """Set up a match (organiser), or challenge the other agent (one of the two)."""

@@ -31,6 +31,8 @@ from referee.wire import (
     ForfeitRequest,
     GameAnswer,
     GameOver,
+    InvitationRequest,
+    Invitations,
     KeyList,
     MatchList,
     MatchOver,
@@ -46,6 +48,9 @@ from referee.wire import (
     SimulateRequest,
     StandingsView,
     StrokeAnswer,
+    TokenList,
+    TokenRequest,
+    TokenSecret,
     TournamentList,
     TournamentRequest,
     TournamentStatus,
@@ -96,6 +101,31 @@ def rotate_token(agent: str) -> Call[AgentToken]:
 def revoke_token(agent: str) -> Call[None]:
     """Make an agent's token worthless."""
     return Call("DELETE", f"/v1/agents/{agent}/token", _nothing, headers=_key())
+
+
+def create_staff_token(request: TokenRequest) -> Call[TokenSecret]:
+    """Make a token for somebody who does not play; the answer shows it."""
+    return Call("POST", "/v1/tokens", _reader(TokenSecret), headers=_key(), body=_json(request))
+
+
+def staff_tokens(cursor: str | None = None) -> Call[TokenList]:
+    """One page of the tokens that are not agents'."""
+    return Call("GET", "/v1/tokens", _reader(TokenList), params=_cursor(cursor))
+
+
+def rotate_staff_token(token_id: str) -> Call[TokenSecret]:
+    """Replace a token under its id."""
+    return Call("POST", f"/v1/tokens/{token_id}/rotate", _reader(TokenSecret), headers=_key())
+
+
+def revoke_staff_token(token_id: str) -> Call[None]:
+    """Make a token worthless."""
+    return Call("DELETE", f"/v1/tokens/{token_id}", _nothing, headers=_key())
+
+
+def invite(request: InvitationRequest) -> Call[Invitations]:
+    """Make codes to register with."""
+    return Call("POST", "/v1/invitations", _reader(Invitations), headers=_key(), body=_json(request))
 
 
 def create_match(request: MatchRequest) -> Call[MatchView]:
@@ -215,14 +245,14 @@ def simulate(table: Table, state: TableState, shot: Shot, trace: bool, game: str
     """One shot on the server's physics, counted against the budget of a game when one is named."""
     asked = {"shot": ShotParameters.of(shot), "trace": trace, "game": game}
     request = SimulateRequest.model_validate(_scene(table, state) | asked)
-    return Call("POST", "/v1/simulate", _reader(SimulateAnswer), body=_json(request), pure=game is None)
+    return Call("POST", "/v1/simulate", _reader(SimulateAnswer), headers=_key(), body=_json(request))
 
 
 def simulate_batch(table: Table, state: TableState, shots: list[Shot], game: str | None) -> Call[BatchAnswer]:
     """Many shots from one position on the server's physics, counted likewise."""
     asked = {"shots": tuple(ShotParameters.of(shot) for shot in shots), "game": game}
     request = BatchRequest.model_validate(_scene(table, state) | asked)
-    return Call("POST", "/v1/simulate/batch", _reader(BatchAnswer), body=_json(request), pure=game is None)
+    return Call("POST", "/v1/simulate/batch", _reader(BatchAnswer), headers=_key(), body=_json(request))
 
 
 def min_elevation(table: Table, state: TableState, phi: float, a: float, b: float) -> Call[MinElevationAnswer]:

@@ -5,10 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from client.agent import Agent, AgentFactory
+from client.agent import AgentFactory
 from client.agents.registry import Player, factory_of, titles
-from client.players import log
-from client.simulator import Simulator
+from client.players import Instance, log
 from physics import Table
 from referee import Action, EightBall, Game, Phase, SimulationBudget
 from referee.play import LINKS, Budgets, MatchSeed, NoiseModel, Refused, Stroke
@@ -94,40 +93,31 @@ def play(
 
 
 class _Chair:
-    """One player in one game: the instance, and the view it saw last."""
+    """One player in one game."""
 
     def __init__(self, seat: int, factory: AgentFactory, budget: SimulationBudget) -> None:
         self._seat = seat
-        self._factory = factory
-        self._simulator = Simulator(budget)
-        self._agent: Agent | None = None
-        self._last: View | None = None
+        self._instance = Instance(factory, budget)
 
     def __call__(self, view: View) -> Action:
         """The agent's answer; whatever it raises goes to the driver."""
-        if self._agent is None:
-            agent = self._factory()
-            agent.simulator = self._simulator
-            agent.game_started(view)
-            self._agent = agent
-        self._last = view
-        return self._agent.choose(view)
+        return self._instance.choose(view)
 
     def refused(self, bad: BadAction) -> None:
         """Tell the agent why its action was not accepted; what it raised itself it knows."""
-        if self._agent is None or self._last is None or not isinstance(bad.reason, Refused):
+        if not isinstance(bad.reason, Refused):
             return
         try:
-            self._agent.refused(self._last, str(bad.reason))
+            self._instance.refused(str(bad.reason))
         except Exception:
-            log.exception("game %s: refused raised", self._last.game)
+            log.exception("refused raised")
 
     def finish(self, game: PlayedGame, score: tuple[float, float]) -> None:
         """Tell an agent that has been at the table how the game ended."""
-        if self._agent is None or self._last is None:
+        if self._instance.last is None:
             return
         try:
-            self._agent.game_over(over_message(game, self._seat, self._last, score))
+            self._instance.game_over(over_message(game, self._seat, self._instance.last, score))
         except Exception:
             log.exception("game %s: game_over raised", game.header.game)
 

@@ -11,6 +11,41 @@ from referee.wire import GameOver, View
 log = logging.getLogger("pooliad.agent")
 
 
+class Instance:
+    """One instance of an agent at the table of one game, made when it is asked first; what it raises is its host's.
+
+    Args:
+        factory: makes it.
+        budget: of its simulator.
+    """
+
+    def __init__(self, factory: AgentFactory, budget: SimulationBudget) -> None:
+        self._factory = factory
+        self._agent: Agent | None = None
+        self.budget = budget
+        self.last: View | None = None
+
+    def choose(self, view: View) -> Action:
+        """Its answer to a turn."""
+        if self._agent is None:
+            agent = self._factory()
+            agent.simulator = Simulator(self.budget)
+            agent.game_started(view)
+            self._agent = agent
+        self.last = view
+        return self._agent.choose(view)
+
+    def refused(self, reason: str) -> None:
+        """Tell it why its last action was not accepted."""
+        if self._agent is not None and self.last is not None:
+            self._agent.refused(self.last, reason)
+
+    def game_over(self, over: GameOver) -> None:
+        """Tell it how the game ended, if it was ever asked."""
+        if self._agent is not None:
+            self._agent.game_over(over)
+
+
 @dataclass(slots=True)
 class Honour:
     """What one instance simulates by itself in a game on a server: counted here, declared with its next action.
@@ -41,7 +76,7 @@ class Players:
 
     def __init__(self, factory: AgentFactory) -> None:
         self._factory = factory
-        self._by_game: dict[str, Agent] = {}
+        self._by_game: dict[str, Instance] = {}
         self._by_honour: dict[str, Honour] = {}
 
     def choose(self, view: View) -> Action | None:
@@ -73,28 +108,23 @@ class Players:
         """Log why an action was not accepted, and tell the instance."""
         log.error("game %s, stroke %d: refused: %s", view.game, view.stroke, reason)
         try:
-            self._of(view).refused(view, str(reason))
+            self._of(view).refused(str(reason))
         except Exception:
             log.exception("game %s: refused raised", view.game)
 
     def game_over(self, over: GameOver) -> None:
         """Tell the instance of this game that it has ended, and forget it; without a turn there is none."""
-        agent = self._by_game.pop(over.game, None)
+        instance = self._by_game.pop(over.game, None)
         self._by_honour.pop(over.game, None)
-        if agent is None:
+        if instance is None:
             return
         try:
-            agent.game_over(over)
+            instance.game_over(over)
         except Exception:
             log.exception("game %s: game_over raised", over.game)
 
-    def _of(self, view: View) -> Agent:
+    def _of(self, view: View) -> Instance:
         """The instance for this game."""
         honour = self._by_honour.setdefault(view.game, Honour())
         honour.told(view)
-        if view.game not in self._by_game:
-            agent = self._factory()
-            agent.simulator = Simulator(honour.budget)
-            agent.game_started(view)
-            self._by_game[view.game] = agent
-        return self._by_game[view.game]
+        return self._by_game.setdefault(view.game, Instance(self._factory, honour.budget))

@@ -1,7 +1,8 @@
 """An agent in any language: a command that reads JSON lines and writes JSON lines.
 
 It is started once for every game. It is told `game_started`, `turn`, `refused` and `game_over`, and answers each turn
-with one line: what `POST /v1/games/{id}/shots` or `/decisions` would take. Before that it may ask for the physics:
+with one line: what `POST /v1/games/{id}/shots` or `/decisions` would take, and if it likes the number of the turn, so
+that no answer to another one can be taken for it. Before that it may ask for the physics:
 `{"ask": "min_elevation", "phi": 270}` is answered as `POST /v1/min-elevation` would be. docs/agents.md has all of it.
 """
 
@@ -13,7 +14,6 @@ import tempfile
 import time
 import weakref
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +38,8 @@ from referee.wire import (
 log = logging.getLogger("pooliad.agent")
 
 LOGS = "POOLIAD_AGENT_LOGS"
-"""Environment variable: the directory for the standard error of commands; a new temporary one unless set."""
+"""Environment variable: the directory for the standard error of commands. Unless it is set every game gets a temporary
+one, which stays only if something was written."""
 SILENCE = 60.0
 """Seconds a command may take where no clock runs."""
 SHOWN = 200
@@ -61,14 +62,19 @@ class StdioAgent(Agent):
         self._command = tuple(command)
         self._logs = logs
         self._silence = silence
+        self._turn = 0
         self._process: LineProcess | None = None
         self._stop: weakref.finalize[..., Any] | None = None
+        self._tidy: weakref.finalize[..., Any] | None = None
 
     def game_started(self, view: View) -> None:
         """Start the command, and tell it the game."""
-        directory = self._logs or Path(os.environ.get(LOGS) or _temporary())
+        given = self._logs or os.environ.get(LOGS)
+        directory = Path(given or tempfile.mkdtemp(prefix="pooliad-agent-"))
         directory.mkdir(parents=True, exist_ok=True)
         self._errors = directory / f"{view.game}-seat-{view.seat}.stderr"
+        if not given:
+            self._tidy = weakref.finalize(self, _remove_if_empty, self._errors)
         log.info("game %s: standard error of %s is in %s", view.game, list(self._command), self._errors)
 
     def choose(self, view: View) -> Action:
@@ -78,7 +84,8 @@ class StdioAgent(Agent):
         try:
             for line in process.unasked():
                 log.warning("game %s: %s wrote unasked: %s", view.game, list(self._command), line[:SHOWN])
-            process.send(_message("turn", game=view.game, view=_plain(view)), deadline)
+            self._turn += 1
+            process.send(_message("turn", turn=self._turn, game=view.game, view=_plain(view)), deadline)
             return self._answer(process, view, deadline)
         except AgentFailed:
             self._end()
@@ -95,6 +102,8 @@ class StdioAgent(Agent):
             with contextlib.suppress(AgentFailed):
                 self._process.send(over.model_dump_json(), time.monotonic() + self._silence)
             self._end()
+        if self._tidy is not None:
+            self._tidy()
 
     def _running(self, view: View, deadline: float) -> LineProcess:
         """The command, started if it does not run."""
@@ -114,13 +123,17 @@ class StdioAgent(Agent):
         return self._silence if left is None else left
 
     def _answer(self, process: LineProcess, view: View, deadline: float) -> Action:
-        """The action in its next line that is no question."""
+        """The action in its next line that is no question, and names no other turn."""
         while True:
             line = process.receive(deadline)
             said = _read(line)
-            if "ask" not in said:
+            turn = said.pop("turn", self._turn)
+            if "ask" in said:
+                process.send(self._told(said, view), deadline)
+            elif turn == self._turn:
                 return _action(said, line)
-            process.send(self._told(said, view), deadline)
+            else:
+                log.warning("game %s: %s answered another turn: %s", view.game, list(self._command), line[:SHOWN])
 
     def _told(self, question: dict[str, Any], view: View) -> str:
         """The answer to a question about the physics; the table is the game's unless it names another."""
@@ -135,10 +148,14 @@ class StdioAgent(Agent):
             return _message("error", reason=str(error))
 
 
-@cache
-def _temporary() -> str:
-    """A directory for this process's logs."""
-    return tempfile.mkdtemp(prefix="pooliad-agent-")
+def _remove_if_empty(errors: Path) -> None:
+    """Nothing was written to this file: it goes, and its directory."""
+    with contextlib.suppress(OSError):
+        if errors.stat().st_size:
+            return
+        errors.unlink()
+    with contextlib.suppress(OSError):
+        errors.parent.rmdir()
 
 
 def _simulated(agent: Agent, request: Any) -> BaseModel:

@@ -26,6 +26,8 @@ LARGEST_FILE = 2**30
 """Bytes an agent's process may write into one file, its log included: a loop that prints must not fill the disk."""
 LEAVING_SECONDS = 2.0
 """How long a process gets to end when its input is closed."""
+NEWS_SECONDS = 1.0
+"""How long it may take to read news that needs no answer."""
 CONFINE = Path(__file__).with_name("confine.py")
 
 
@@ -34,7 +36,7 @@ class ProcessSeat:
 
     A turn is a line ``{"type": "turn", "game": …, "view": …}`` on its standard input, as ``GET /v1/turns`` gives it;
     the answer is the action as a line on its standard output, ``simulated`` beside it if it counts simulated shots.
-    ``game_over`` messages are not answered.
+    ``{"type": "refused", "reason": …}`` and ``game_over`` messages are not answered.
 
     Args:
         hosting: the agent and its limits.
@@ -78,11 +80,13 @@ class ProcessSeat:
             raise Lost(EndReason.CRASH) from None
         return self._action(line)
 
+    def refused(self, reason: str) -> None:
+        """Tell it why its answer was not accepted."""
+        self._tell_if_there(json.dumps({"type": "refused", "reason": reason}))
+
     def over(self, message: GameOver) -> None:
-        """Tell it, if it was asked in this game and still runs; what it does with the news is its own affair."""
-        if self._process is not None and self._asked:
-            with contextlib.suppress(TimeoutError, BrokenPipeError):
-                self._send(self._process, message.model_dump_json().encode() + b"\n", time.monotonic() + 1.0)
+        """Tell it, if it was asked in this game and still runs."""
+        self._tell_if_there(message.model_dump_json())
 
     def interrupt(self) -> None:
         """Kill it, from any thread; whoever is waiting for its answer sees it end."""
@@ -100,6 +104,12 @@ class ProcessSeat:
                 self._process.wait(LEAVING_SECONDS)
         self._kill()
         self._lease.release()
+
+    def _tell_if_there(self, line: str) -> None:
+        """Send what needs no answer; what it does with the news is its own affair."""
+        if self._process is not None and self._asked:
+            with contextlib.suppress(TimeoutError, BrokenPipeError):
+                self._send(self._process, line.encode() + b"\n", time.monotonic() + NEWS_SECONDS)
 
     def _require_process(self) -> subprocess.Popen[bytes]:
         if self._process is None:

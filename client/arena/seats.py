@@ -5,11 +5,11 @@ from functools import partial
 from pathlib import Path
 from typing import Protocol
 
-from client.agent import Agent, AgentFactory
+from client.agent import AgentFactory
 from client.agents.registry import load
 from client.arena.hosting import Hosting, Kind
 from client.arena.process import ProcessSeat
-from client.simulator import Simulator
+from client.players import Instance
 from referee import Action, SimulationBudget
 from referee.wire import GameOver, View
 
@@ -28,6 +28,9 @@ class Seat(Protocol):
             Exception: a bad answer; it may be asked again.
         """
 
+    def refused(self, reason: str) -> None:
+        """The last answer was an action that the referee does not accept; the turn is asked again."""
+
     def over(self, message: GameOver) -> None:
         """The game has ended."""
 
@@ -40,26 +43,23 @@ class InlineSeat:
 
     def __init__(self, factory: AgentFactory) -> None:
         self._factory = factory
-        self._budget = SimulationBudget()
-        self._agent: Agent | None = None
+        self._instance = Instance(factory, SimulationBudget())
 
     def begin(self, budget: SimulationBudget) -> None:
         """Forget the last game's instance."""
-        self._agent, self._budget = None, budget
+        self._instance = Instance(self._factory, budget)
 
     def ask(self, view: View, _seconds: float | None) -> Action:
         """What the agent chooses."""
-        if self._agent is None:
-            agent = self._factory()
-            agent.simulator = Simulator(self._budget)
-            agent.game_started(view)
-            self._agent = agent
-        return self._agent.choose(view)
+        return self._instance.choose(view)
+
+    def refused(self, reason: str) -> None:
+        """Tell the agent."""
+        self._instance.refused(reason)
 
     def over(self, message: GameOver) -> None:
         """Tell the agent, if it was ever asked."""
-        if self._agent is not None:
-            self._agent.game_over(message)
+        self._instance.game_over(message)
 
     def close(self) -> None:
         """Nothing to stop."""

@@ -1,8 +1,8 @@
 """A Python agent as a process: ``python -m client.arena.serving NAME [--seed N] [--options JSON]``.
 
-Reads the messages of ``GET /v1/turns`` from standard input, a JSON line each. A ``turn`` is answered with a line on
-standard output: the action, and beside it ``simulated``, the shots simulated in this game so far. What the agent
-prints goes to standard error, so that it cannot be taken for an answer.
+Reads the messages of ``GET /v1/turns``, and ``refused``, from standard input, a JSON line each. A ``turn`` is answered
+with a line on standard output: the action, and beside it ``simulated``, the shots simulated in this game so far. What
+the agent prints goes to standard error, so that it cannot be taken for an answer.
 """
 
 import argparse
@@ -13,13 +13,15 @@ import traceback
 from functools import partial
 from typing import Any, BinaryIO
 
-from client.agent import Agent, AgentFactory
+from client.agent import AgentFactory
 from client.agents.registry import load
 from client.errors import AgentFailed, NonsenseAnswer
-from client.simulator import Simulator
+from client.players import Instance
 from referee import Action, SimulationBudget
 from referee.wire import TURN_MESSAGE, GameOver, Turn
 
+REFUSED = b'{"type": "refused"'
+"""How a line begins that says why the last action was not accepted."""
 GONE = 70
 """Exit code when the command behind an agent is gone."""
 
@@ -43,10 +45,14 @@ class _Server:
 
     def __init__(self, factory: AgentFactory) -> None:
         self._factory = factory
-        self._agents: dict[str, Agent] = {}
+        self._instances: dict[str, Instance] = {}
+        self._asked: Instance | None = None
 
     def answer(self, line: bytes) -> dict[str, Any] | None:
         """What a line is answered with; None when nothing is expected."""
+        if line.startswith(REFUSED):
+            self._refused(str(json.loads(line)["reason"]))
+            return None
         message = TURN_MESSAGE.validate_json(line)
         if isinstance(message, Turn):
             return self._turn(message)
@@ -56,8 +62,8 @@ class _Server:
 
     def _turn(self, turn: Turn) -> dict[str, Any]:
         try:
-            agent = self._of(turn)
-            action = agent.choose(turn.view)
+            self._asked = instance = self._of(turn)
+            action = instance.choose(turn.view)
             if not isinstance(action, Action):
                 raise TypeError(f"choose returned {action!r}, which is no client.Action")
         except AgentFailed as error:
@@ -68,21 +74,26 @@ class _Server:
         except Exception as error:
             traceback.print_exc()
             return {"error": f"{type(error).__name__}: {error}"}
-        return action.to_dict() | {"simulated": agent.simulator.budget.used}
+        return action.to_dict() | {"simulated": instance.budget.used}
 
-    def _of(self, turn: Turn) -> Agent:
-        if turn.game not in self._agents:
-            agent = self._factory()
-            agent.simulator = Simulator(SimulationBudget(turn.view.budget.simulations if turn.view.budget else None))
-            agent.game_started(turn.view)
-            self._agents[turn.game] = agent
-        return self._agents[turn.game]
+    def _of(self, turn: Turn) -> Instance:
+        if turn.game not in self._instances:
+            budget = SimulationBudget(turn.view.budget.simulations if turn.view.budget else None)
+            self._instances[turn.game] = Instance(self._factory, budget)
+        return self._instances[turn.game]
+
+    def _refused(self, reason: str) -> None:
+        try:
+            if self._asked is not None:
+                self._asked.refused(reason)
+        except Exception:
+            traceback.print_exc()
 
     def _over(self, over: GameOver) -> None:
-        agent = self._agents.pop(over.game, None)
+        instance = self._instances.pop(over.game, None)
         try:
-            if agent is not None:
-                agent.game_over(over)
+            if instance is not None:
+                instance.game_over(over)
         except Exception:
             traceback.print_exc()
 

@@ -16,7 +16,7 @@ from client.arena.seats import Seat
 from client.local import over_message
 from physics import Table
 from referee import Action, EightBall, EndReason, GameSeeds, NoiseModel
-from referee.play import nanoseconds
+from referee.play import Refused, nanoseconds
 from referee.play.budget import Budgets, budgets
 from referee.play.local import TRIES, BadAction, Lost, PlayedGame, Timing, Watch, play_game, points_of
 from referee.record import line_digest, read_record
@@ -267,8 +267,9 @@ class _Game:
                 return
             except Exception:
                 continue
-            if not self._rules.check(view.to_game(), answer):
+            if not (refusals := self._rules.check(view.to_game(), answer)):
                 break
+            self._tell_refused(seat, Refused(refusals))
         else:
             return
         if _plain(answer) != _plain(made):
@@ -290,6 +291,15 @@ class _Game:
     def _refused(self, bad: BadAction) -> None:
         if bad.attempt == 1:
             self._report(bad.seat, f"bad answer: {bad.reason}")
+
+        if isinstance(bad.reason, Refused):
+            self._tell_refused(bad.seat, bad.reason)
+
+    def _tell_refused(self, seat: int, refused: Refused) -> None:
+        try:
+            self._seats[seat].refused(str(refused))
+        except Exception as error:
+            self._report(seat, f"refused raised {error!r}")
 
     def _report(self, seat: int, what: str) -> None:
         self._tell(self._task.due.pair.players[seat], f"{self._task.due.id}: {what}"[:LONGEST_REPORT])

@@ -22,13 +22,16 @@ def check(
         typer.Option(help="Instead: a program that speaks HTTP; POOLIAD_URL and POOLIAD_TOKEN are in its environment."),
     ] = None,
     only: Annotated[list[str] | None, typer.Option(help="One situation by name; may be given again.")] = None,
-    out: Annotated[Path | None, typer.Option(help="Directory for the logs; a new one unless given.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Directory for the logs; unless given, a new one, kept if there are faults.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Play an agent through scripted situations on a server of its own, and say what it does wrong.
 
     Leaves with 0 when it did nothing wrong, with 1 when it did.
     """
+    import shutil
     import tempfile
 
     from client.cli import embedded
@@ -44,10 +47,14 @@ def check(
         checker = Checker(server.url, server.organiser, line, directory)
         reports = checker.run(situations, on_report=_silence if as_json else _tell)
     faults = sum(len(report.faults) for report in reports)
+    kept = faults > 0 or out is not None
+    if not kept:
+        shutil.rmtree(directory)
     if as_json:
-        emit({"ok": faults == 0, "directory": str(directory), "situations": [each.to_dict() for each in reports]})
+        where = str(directory) if kept else None
+        emit({"ok": faults == 0, "directory": where, "situations": [each.to_dict() for each in reports]})
     else:
-        say(f"{len(reports)} situations, {faults} faults; logs in {directory}")
+        say(f"{len(reports)} situations, {faults} faults" + (f"; logs in {directory}" if kept else ""))
     if faults:
         raise typer.Exit(FAILED)
 

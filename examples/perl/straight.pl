@@ -16,7 +16,7 @@ my $RADIUS   = 0.028575;    # of every ball, m
 while (my $line = <STDIN>) {
     my $message = $json->decode($line);
     if ($message->{type} eq 'turn') {
-        print $json->encode(choose($message->{view})), "\n";
+        print $json->encode({ %{ choose($message->{view}) }, turn => $message->{turn} }), "\n";
     }
     elsif ($message->{type} eq 'refused') {
         $refusals++;

@@ -58,6 +58,7 @@ def describe(
     success: Mapping[int, Any] | None = None,
     token: bool = True,
     key: bool = False,
+    optional_key: bool = False,
     version: bool = False,
     limited: bool = True,
 ) -> Described:
@@ -70,15 +71,16 @@ def describe(
             the
             framework.
         limited: whether it may be asked too often.
-        token: whether it takes one; key: an Idempotency-Key; version: If-Match.
+        token: whether it takes one; key: an Idempotency-Key, which optional_key says is not always needed;
+            version: If-Match.
     """
     implied: list[type[ServerError]] = [Unauthorized] if token else []
     implied += [*BODY_PROBLEMS] if body else []
-    implied += [SlowBody, TooLarge, *KEY_PROBLEMS] if key else []
+    implied += [SlowBody, TooLarge, *KEY_PROBLEMS] if key or optional_key else []
     extra: dict[str, Any] = {"security": [{TOKEN_SCHEME: []}] if token else []}
     if body:
         extra["requestBody"] = _request_body(body) | {"required": not optional_body}
-    if headers := _headers(key, version):
+    if headers := _headers(key, optional_key, version):
         extra["parameters"] = headers
     responses = {status: _success(answer) for status, answer in (success or {}).items()}
     described: Described = {
@@ -121,22 +123,23 @@ def _problems(*errors: type[ServerError]) -> dict[int | str, dict[str, Any]]:
     }
 
 
-def _headers(key: bool, version: bool) -> list[dict[str, Any]]:
+def _headers(key: bool, optional_key: bool, version: bool) -> list[dict[str, Any]]:
     headers = []
-    if key:
-        headers.append(
-            _header("Idempotency-Key", KEY, "6a1f0c52-7f0e-4d43-9c1b-5b2f3f0f7f11", "a name of the request's own")
-        )
+    if key or optional_key:
+        example = "6a1f0c52-7f0e-4d43-9c1b-5b2f3f0f7f11"
+        headers.append(_header("Idempotency-Key", KEY, example, "a name of the request's own", required=key))
     if version:
         headers.append(_header("If-Match", VERSION, '"1"', "the version of the view that the request answers"))
     return headers
 
 
-def _header(name: str, schema: dict[str, Any], example: str, description: str) -> dict[str, Any]:
+def _header(
+    name: str, schema: dict[str, Any], example: str, description: str, *, required: bool = True
+) -> dict[str, Any]:
     return {
         "name": name,
         "in": "header",
-        "required": True,
+        "required": required,
         "description": description,
         "schema": schema,
         "example": example,

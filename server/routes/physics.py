@@ -1,4 +1,4 @@
-"""The physics alone. Nothing is stored, so no Idempotency-Key is needed; a token is.
+"""The physics alone. Nothing is stored, but what counts against a game's budget: for that an Idempotency-Key is needed.
 
 Requests are read, simulated and answered by threads of their own: however many there are, the games go on beside them.
 """
@@ -17,11 +17,10 @@ from referee.wire import (
     SimulateRequest,
 )
 from server.errors import BudgetSpent, Forbidden, GameFinished
-from server.routes.dependencies import Body, ContentType, Server, Simulating
+from server.routes.dependencies import Body, ContentType, Sent, Server, Simulating
 from server.routes.describe import OWNED, describe
-from server.security.callers import Caller
 from server.services import physics, simulations
-from server.services.commands import parse_body
+from server.services.commands import Command, parse, parse_body
 from server.services.context import Context
 
 GAME_PROBLEMS = (*OWNED, GameFinished, BudgetSpent)
@@ -32,15 +31,15 @@ router = APIRouter(prefix="/v1", tags=["physics"])
 
 @router.post(
     "/simulate",
-    **describe(*GAME_PROBLEMS, body=SimulateRequest, success={200: SimulateAnswer}),
+    **describe(*GAME_PROBLEMS, body=SimulateRequest, success={200: SimulateAnswer}, optional_key=True),
     summary="Simulate one shot",
 )
-async def simulate(context: Server, caller: Simulating, body: Body, content_type: ContentType = None) -> Response:
-    """A shot that cannot be played is an answer too; its status says why."""
+async def simulate(context: Server, _caller: Simulating, command: Sent) -> Response:
+    """A shot that cannot be played is an answer too; its status says why. With `game` an Idempotency-Key is needed."""
 
     def work() -> SimulateAnswer:
-        request = parse_body(body, content_type, SimulateRequest)
-        simulations.count(context, caller, request.game, 1)
+        request = parse(command, SimulateRequest)
+        simulations.count(context, command, request.game, 1)
         context.metrics.simulated.inc()
         return physics.simulate(request)
 
@@ -49,18 +48,18 @@ async def simulate(context: Server, caller: Simulating, body: Body, content_type
 
 @router.post(
     "/simulate/batch",
-    **describe(*GAME_PROBLEMS, body=BatchRequest, success={200: BatchAnswer}),
+    **describe(*GAME_PROBLEMS, body=BatchRequest, success={200: BatchAnswer}, optional_key=True),
     summary="Simulate many shots",
 )
-async def simulate_batch(context: Server, caller: Simulating, body: Body, content_type: ContentType = None) -> Response:
-    """From one position, or each from its own."""
-    return await _answered(context, lambda: _batch(context, caller, body, content_type))
+async def simulate_batch(context: Server, _caller: Simulating, command: Sent) -> Response:
+    """From one position, or each from its own. With `game` an Idempotency-Key is needed."""
+    return await _answered(context, lambda: _batch(context, command))
 
 
-def _batch(context: Context, caller: Caller, body: bytes, content_type: str | None) -> BatchAnswer:
-    request = parse_body(body, content_type, BatchRequest)
-    context.limits.count_shots(caller, len(request.shots))
-    simulations.count(context, caller, request.game, len(request.shots))
+def _batch(context: Context, command: Command) -> BatchAnswer:
+    request = parse(command, BatchRequest)
+    context.limits.count_shots(command.caller, len(request.shots))
+    simulations.count(context, command, request.game, len(request.shots))
     context.metrics.simulated.inc(len(request.shots))
     return physics.simulate_batch(request)
 

@@ -1,31 +1,40 @@
 """The budget of simulated shots in a game: counted where the server simulates, believed where players declare."""
 
-from sqlalchemy import true, update
+from sqlalchemy import Connection, true, update
 
 from server.errors import BudgetSpent, GameFinished
 from server.security.callers import Caller
+from server.services.commands import Answer, Command, once
 from server.services.context import Context
 from server.services.live import LiveGame, hold
 from server.store.tables import games
 
+COUNTED = Answer(200, b"")
+"""What is kept of a request that was counted: what it simulates comes out the same when it is sent again."""
 
-def count(context: Context, caller: Caller, game_id: str | None, shots: int) -> None:
-    """Count shots about to be simulated for one of the game's players; without a game there is nothing to count.
 
-    Raises `NotFound`, `Forbidden`, `GameFinished`, and `BudgetSpent` when fewer are left; nothing is counted then.
+def count(context: Context, command: Command, game_id: str | None, shots: int) -> None:
+    """Count shots about to be simulated for one of the game's players, once however often the request comes.
+
+    Without a game there is nothing to count. Raises `BadHeader` and `KeyReused` as every command does, `NotFound`,
+    `Forbidden`, `GameFinished`, and `BudgetSpent` when fewer are left; nothing is counted then.
     """
-    if game_id is None:
-        return
-    with context.writing() as writing:
-        live = hold(writing.connection, game_id)
-        seat = live.seat_of(caller)
-        if not live.is_running:
-            raise GameFinished(f"game {live.id} is {live.row.status}")
-        simulated = games.c[f"simulated_{seat}"]
-        fits = true() if live.match.simulations is None else simulated + shots <= live.match.simulations
-        this = update(games).where(games.c.id == live.id, fits)
-        if writing.connection.execute(this.values({simulated: simulated + shots})).rowcount != 1:
-            raise _spent(live, seat, shots)
+    if game_id is not None:
+        with context.writing() as writing:
+            once(writing.connection, command, lambda: _count(writing.connection, command.caller, game_id, shots))
+
+
+def _count(connection: Connection, caller: Caller, game_id: str, shots: int) -> Answer:
+    live = hold(connection, game_id)
+    seat = live.seat_of(caller)
+    if not live.is_running:
+        raise GameFinished(f"game {live.id} is {live.row.status}")
+    simulated = games.c[f"simulated_{seat}"]
+    fits = true() if live.match.simulations is None else simulated + shots <= live.match.simulations
+    this = update(games).where(games.c.id == live.id, fits)
+    if connection.execute(this.values({simulated: simulated + shots})).rowcount != 1:
+        raise _spent(live, seat, shots)
+    return COUNTED
 
 
 def require_left(live: LiveGame, seat: int, shots: int) -> None:

@@ -2,6 +2,7 @@
 
 import threading
 
+import httpx2
 import pytest
 
 import client
@@ -91,3 +92,46 @@ def test_an_agent_that_asks_for_too_much_is_told_and_asked_again(hall, caplog):
     assert run_agent(Greedy, hall.url, entries[0].token).winner == 1
     assert tried == [3, 3]
     assert "at most 3 are left in this game" in caplog.text
+
+
+class LosesAnswers(httpx2.BaseTransport):
+    """The real network, but the first answer to each path is lost on its way back."""
+
+    def __init__(self):
+        self._real, self.lost = httpx2.HTTPTransport(), []
+
+    def handle_request(self, request):
+        response = self._real.handle_request(request)
+        if request.url.path in self.lost:
+            return response
+        response.read()
+        self.lost.append(request.url.path)
+        raise httpx2.ReadError("the answer is lost", request=request)
+
+    def close(self):
+        self._real.close()
+
+
+def test_a_simulation_whose_answer_was_lost_is_asked_for_again_and_counted_once(hall):
+    entries, transport = begun(hall, 5), LosesAnswers()
+    with seat_0(hall, entries) as player:
+        view = player.turns(10).view
+    retry = client.Retry(first_pause=0.01)
+    with client.Pooliad(hall.url, entries[0].token, retry=retry, transport=transport) as player:
+        table, state = view.table_model(), view.state
+        answer = player.simulate(table, state, SHOT, game=view.game)
+        assert len(player.simulate_batch(table, state, [SHOT] * 4, game=view.game).results) == 4
+        assert player.game(view.game).view.clocks[0].simulations_left == 0
+    assert answer.status == "at_rest"
+    assert transport.lost[:2] == ["/v1/simulate", "/v1/simulate/batch"]
+
+
+def test_a_simulation_that_counts_needs_a_key(hall):
+    entries = begun(hall, 5)
+    with seat_0(hall, entries) as player:
+        view = player.turns(10).view
+    body = {"shot": SHOT.to_dict(), "balls": view.state.to_dict(), "game": view.game}
+    with httpx2.Client(headers={"Authorization": f"Bearer {entries[0].token}"}, timeout=60) as http:
+        without = http.post(f"{hall.url}/v1/simulate", json=body)
+        assert (without.status_code, without.json()["code"]) == (400, "bad_header")
+        assert http.post(f"{hall.url}/v1/simulate", json=body | {"game": None}).status_code == 200

@@ -49,7 +49,7 @@ def test_the_base_install_plays_without_a_server(without_server) -> None:
 @pytest.fixture(scope="module")
 def demo(complete) -> dict:
     """The account of a demo from the wheel: a real server, two agent processes, a whole match."""
-    return json.loads(complete.must(["pooliad", "demo", "--seed", "4", "--json"]))
+    return json.loads(complete.must(["pooliad", "demo", "--seed", "4", "--out", "demo-4", "--json"]))
 
 
 def test_a_demo_from_the_wheel_ends_by_the_rules(demo: dict) -> None:
@@ -84,7 +84,7 @@ def test_an_agent_of_ones_own_is_found_where_one_stands(complete) -> None:
     (complete.cwd / "straight.py").write_text(block)
     (complete.cwd / "server").mkdir()
     (complete.cwd / "server" / "__init__.py").write_text("raise SystemExit('not the server')")
-    command = ["pooliad", "demo", "--agents", "straight:Straight", "random", "--seed", "2", "--json"]
+    command = ["pooliad", "demo", "--agents", "straight:Straight", "random", "--seed", "2", "--out", "demo-2", "--json"]
     account = json.loads(complete.must(command))
     assert account["status"] == "finished"
     assert account["agents"] == ["Straight", "random"]

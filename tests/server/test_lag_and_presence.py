@@ -6,8 +6,8 @@ import pytest
 from support.server_time import SECOND, Stage
 
 from referee.play import Charge, LagAllowance
-from server.errors import BudgetSpent, Forbidden, GameFinished, Invalid
-from server.security.callers import ORGANISER, Caller
+from server.errors import BudgetSpent, Forbidden, GameFinished, Invalid, KeyReused
+from server.security.callers import ORGANISER
 from server.services import heartbeat, ledger, simulations, verdicts
 
 
@@ -201,32 +201,45 @@ def test_a_verdict_that_is_none_is_refused(stage, body):
 def test_the_budget_of_simulated_shots_is_counted_by_player_and_game(stage):
     now = stage()
     seats = now.game("ann", "bob", clock={"seconds": 10.0, "simulations": 100})
-    first, second = (Caller(agent, "t") for agent in seats.ids)
-    simulations.count(now.context, first, seats.id, 60)
-    simulations.count(now.context, second, seats.id, 100)
-    simulations.count(now.context, first, seats.id, 40)
-    for caller in (first, second):
+    first, second = seats.ids
+    for agent, key, shots in ((first, "a", 60), (second, "a", 100), (first, "b", 40)):
+        simulations.count(now.context, now.command(agent, key=key), seats.id, shots)
+    for agent in seats.ids:
         with pytest.raises(BudgetSpent, match="more than the 0 that are left"):
-            simulations.count(now.context, caller, seats.id, 1)
+            simulations.count(now.context, now.command(agent, key="c"), seats.id, 1)
     book = ledger.read(now.context, seats.id)
     assert [player.simulated for player in book.players] == [100, 100]
     assert [clock.simulations_left for clock in book.clocks] == [0, 0]
+
+
+def test_a_request_that_comes_again_is_counted_once(stage):
+    """Also when the budget is spent meanwhile, and the game over; with another body the key is refused, as anywhere."""
+    now = stage()
+    seats = now.game("ann", "bob", clock={"seconds": 10.0, "simulations": 100})
+    sent = now.command(seats.ids[0], b"1")
+    for _ in range(2):
+        simulations.count(now.context, sent, seats.id, 100)
+    with pytest.raises(KeyReused):
+        simulations.count(now.context, now.command(seats.ids[0], b"2"), seats.id, 100)
+    seats.concede()
+    simulations.count(now.context, sent, seats.id, 100)
+    assert ledger.read(now.context, seats.id).players[0].simulated == 100
 
 
 def test_a_batch_beyond_the_budget_is_refused_whole(stage):
     now = stage()
     seats = now.game("ann", "bob", clock={"seconds": 10.0, "simulations": 100})
     with pytest.raises(BudgetSpent):
-        simulations.count(now.context, Caller(seats.ids[0], "t"), seats.id, 101)
+        simulations.count(now.context, now.command(seats.ids[0]), seats.id, 101)
     assert ledger.read(now.context, seats.id).players[0].simulated == 0
 
 
 def test_nobody_spends_the_budget_of_another(stage):
     now = stage()
     seats, other = now.game("ann", "bob"), now.game("cat", "dan")
-    for caller in (Caller(other.ids[0], "t"), Caller.organiser("t")):
+    for caller in (other.ids[0], ORGANISER):
         with pytest.raises(Forbidden):
-            simulations.count(now.context, caller, seats.id, 1)
+            simulations.count(now.context, now.command(caller), seats.id, 1)
 
 
 def test_a_game_that_is_over_has_no_budget(stage):
@@ -234,4 +247,4 @@ def test_a_game_that_is_over_has_no_budget(stage):
     seats = now.game("ann", "bob")
     seats.concede()
     with pytest.raises(GameFinished):
-        simulations.count(now.context, Caller(seats.ids[0], "t"), seats.id, 1)
+        simulations.count(now.context, now.command(seats.ids[0]), seats.id, 1)

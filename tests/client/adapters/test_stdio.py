@@ -220,6 +220,35 @@ sys.stdin.readline()
     assert "wrote unasked" in caplog.text
 
 
+def test_an_answer_that_names_another_turn_is_dropped(command, tmp_path, caplog):
+    """A late answer, written after the next turn was sent: time alone could not tell it from the right one."""
+    program = """
+turn()
+say('{"turn": 1, "decision": "rerack_and_break"}')
+assert turn()["turn"] == 2
+say('{"turn": 1, "decision": "accept_table"}')
+say('{"turn": 2, "decision": "concede"}')
+sys.stdin.readline()
+"""
+    agent = lambda: StdioAgent(command(program), logs=tmp_path)  # noqa: E731
+    with caplog.at_level(logging.WARNING, "pooliad.agent"):
+        (game,) = client.play(agent, agent, seed=1).games
+    assert [stroke.action.decision for stroke in game.strokes] == ["concede"]
+    assert "answered another turn" in caplog.text
+    assert "bad action 2" not in caplog.text
+
+
+@pytest.mark.parametrize(("words", "left"), [("", 0), ("told you so", 1)])
+def test_of_its_temporary_files_only_what_was_written_stays(command, tmp_path, monkeypatch, words, left):
+    monkeypatch.delenv("POOLIAD_AGENT_LOGS", raising=False)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    agent = lambda: StdioAgent(command(f"turn(); sys.stderr.write({words!r}); say('{CONCEDE}'); told()"))  # noqa: E731
+    client.play(agent, agent, seed=1)
+    found = list(tmp_path.glob("pooliad-agent-*/*"))
+    assert [path.read_text() for path in found] == [words] * left
+    assert len(list(tmp_path.glob("pooliad-agent-*"))) == left
+
+
 def test_a_command_that_left_is_started_anew(command, tmp_path):
     once = tmp_path / "once"
     program = f"""

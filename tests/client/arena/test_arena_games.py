@@ -7,6 +7,7 @@ import textwrap
 
 import pytest
 
+import client
 from client.agents.random_agent import RandomAgent
 from client.arena.hosting import Hosting
 from client.arena.seats import InlineSeat
@@ -83,6 +84,48 @@ def test_every_failure_has_its_own_end_and_costs_one_game(tmp_path, text, values
     for result, record in zip(done.results, done.records, strict=True):
         assert (result.reason, result.winner) == (reason, 1)
         assert verify_record(record.splitlines()).ok
+
+
+STUBBORN = """
+for line in sys.stdin:
+    message = json.loads(line)
+    if message["type"] == "turn":
+        print('{"decision": "%s"}' % ("concede" if refused else "rerack_and_break"), flush=True)
+    if message["type"] == "refused":
+        refused.append(message["reason"])
+        print(refused, file=open(sys.argv[1], "a"))
+"""
+
+
+def test_a_command_is_told_why_its_action_was_refused(tmp_path):
+    told = tmp_path / "told"
+    command = f"{script(tmp_path, 'refused = []' + STUBBORN)} {told}"
+    done = pair_of(Hosting(command), Hosting("random"))
+    assert {result.reason for result in done.results} == {EndReason.CONCESSION}
+    lines = told.read_text().splitlines()
+    assert len(lines) == 2, "once a game"
+    assert all("no choice is open" in line for line in lines)
+
+
+def test_an_agent_inside_is_told_why_its_action_was_refused(tmp_path):
+    told = []
+
+    class Stubborn(client.Agent):
+        def choose(self, view):
+            return client.Action(decision="concede" if told else "rerack_and_break")
+
+        def refused(self, view, reason):
+            told.append((view.my_turn, reason))
+            raise RuntimeError("what a hook raises is reported")
+
+    found = []
+    (task, *_) = games_of(terms_of())
+    result, _ = play(task, (InlineSeat(Stubborn), InlineSeat(Stubborn)), None, reports_into(found))
+    assert result.reason is EndReason.CONCESSION
+    ((mine, reason),) = told
+    assert mine
+    assert "no choice is open" in reason
+    assert "refused raised RuntimeError" in found[-1][1]
 
 
 def test_a_process_plays_the_very_game_it_plays_inside():

@@ -1,6 +1,7 @@
 """`pooliad agent check`: every bad agent is caught by the name of its fault, good ones pass."""
 
 import json
+import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -74,13 +75,25 @@ def test_the_other_agents_pass_everything(server_installed, agent):
     require(found.returncode == 0, "perl with JSON::PP")
     command = [sys.executable, "-m", "client.cli", "agent", "check", agent, "--json"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=900)
-    assert done.returncode == 0, done.stdout
+    faulty = [each for each in json.loads(done.stdout)["situations"] if not each["ok"]]
+    assert (done.returncode, faulty) == (0, [])
 
 
-def test_the_command_says_what_is_wrong_and_leaves_with_one(server_installed):
+@pytest.mark.parametrize(("fault", "kept"), [("refused", True), ("none", False)])
+def test_what_was_written_meanwhile_stays_if_there_are_faults(server_installed, tmp_path, fault, kept):
+    command = [sys.executable, "-m", "client.cli", "agent", "check", "--only", "groups", "--json"]
+    command += ["--command", f"{sys.executable} {BAD} {fault}"]
+    environment = os.environ | {"TMPDIR": str(tmp_path)}
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, env=environment)
+    directory = json.loads(done.stdout)["directory"]
+    assert (directory is not None) is kept
+    assert [str(path) for path in tmp_path.glob("pooliad-check-*")] == ([directory] if kept else [])
+
+
+def test_the_command_says_what_is_wrong_and_leaves_with_one(server_installed, tmp_path):
     bad = f"{sys.executable} {BAD} refused"
     command = [sys.executable, "-m", "client.cli", "agent", "check", "--command", bad, "--only", "groups"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([*command, "--out", str(tmp_path)], capture_output=True, text=True, timeout=120)
     assert done.returncode == 1
     assert "refused: /v1/games/" in done.stdout
     assert "R23" in done.stdout
