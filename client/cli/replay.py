@@ -88,6 +88,8 @@ def _verification(file: Path, found: "Verification") -> dict[str, Any]:
         "verdict": found.verdict.value,
         "strokes": found.strokes,
         "outcome": None if found.outcome is None else found.outcome.to_dict(),
+        "budget": None if found.budget is None else found.budget.to_dict(),
+        "simulated": found.simulated,
         "difference": None if found.difference is None else asdict(found.difference),
         "needs": None if found.needs is None else found.needs.to_dict(),
         "chain": None if found.chain is None else asdict(found.chain),

@@ -3,7 +3,7 @@
 ``referee.play.local`` plays whole games without a server; it is imported by name, because it needs the wire.
 """
 
-from referee.play.budget import Budgets, BudgetSpent, SimulationBudget
+from referee.play.budget import Budgets, BudgetSpent, GrantedBudget, SimulationBudget
 from referee.play.clock import Charge, Clocks, LagAllowance, nanoseconds
 from referee.play.noise import NoiseModel
 from referee.play.seeds import LINKS, GameSeeds, MatchSeed, client_seeds_from_hex, seed_from_hex
@@ -16,6 +16,7 @@ __all__ = [
     "Charge",
     "Clocks",
     "GameSeeds",
+    "GrantedBudget",
     "LagAllowance",
     "MatchSeed",
     "NoiseModel",

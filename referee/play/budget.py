@@ -1,13 +1,47 @@
 """The simulation budget: a number of simulated shots for each player and game, the same on every machine."""
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
 from threading import Lock
+from typing import Any, Final, Self
 
-from referee.errors import RefereeError
+from referee.errors import InvalidGame, RefereeError
 
 
 class BudgetSpent(RefereeError):
     """More shots were to be simulated than the budget has left; none of them was, and none is counted."""
+
+
+COUNTED: Final = ("by_driver", "by_honour")
+"""Who counts: the driver of a local game, whose simulator the agents use, or the players, who are believed."""
+
+
+@dataclass(frozen=True, slots=True)
+class GrantedBudget:
+    """What the terms of a match grant.
+
+    Attributes:
+        simulations: shots that each player may simulate in a game.
+        counted: one of `COUNTED`.
+    """
+
+    simulations: int
+    counted: str
+
+    def __post_init__(self) -> None:
+        if isinstance(self.simulations, bool) or not isinstance(self.simulations, int) or self.simulations < 0:
+            raise InvalidGame("budget.simulations", self.simulations, "must be an integer >= 0")
+        if self.counted not in COUNTED:
+            raise InvalidGame("budget.counted", self.counted, f"must be one of {', '.join(COUNTED)}")
+
+    def to_dict(self) -> dict[str, Any]:
+        """The budget as a JSON object."""
+        return asdict(self)
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> Self:
+        """Read what ``to_dict`` wrote."""
+        return cls(**values)
 
 
 @dataclass(slots=True)

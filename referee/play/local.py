@@ -6,7 +6,7 @@ from typing import Any
 
 from referee.errors import RefereeError
 from referee.game import Action, EndReason, Game, Outcome
-from referee.play.budget import Budgets, budgets
+from referee.play.budget import Budgets, GrantedBudget, budgets
 from referee.play.clock import SECOND_NS, Clocks
 from referee.play.noise import NoiseModel
 from referee.play.seeds import GameSeeds, MatchSeed
@@ -102,15 +102,20 @@ class PlayedGame:
     after_ns: tuple[int, int] = (0, 0)
     simulated: tuple[int, int] = (0, 0)
 
+    @property
+    def _counted(self) -> tuple[int, int] | None:
+        """What the record tells of simulated shots: nothing where no budget counts them."""
+        return None if self.header.budget is None else self.simulated
+
     def record(self) -> Iterator[str]:
         """The record, line by line."""
         timed = zip(self.strokes, self.elapsed_ns, strict=True)
-        return record_lines(self.header, timed, self.outcome, self.seeds, self.after_ns)
+        return record_lines(self.header, timed, self.outcome, self.seeds, self.after_ns, self._counted)
 
     def last_lines(self, head: str) -> tuple[str, str]:
         """The lines that complete those which ``Watch.on_line`` was told, ``head`` being the last one's digest."""
         chain = Chain(head)
-        end = chain.add(end_entry(len(self.strokes), self.outcome, self.seeds, self.after_ns))
+        end = chain.add(end_entry(len(self.strokes), self.outcome, self.seeds, self.after_ns, self._counted))
         return end, chain.add(unsigned_seal())
 
 
@@ -164,6 +169,7 @@ def play_game(
         first_breaker=None if breaker is None else (breaker + number) % 2,
         position=position,
     )
+    granted = budget[0].allowed
     header = Header.of(
         terms,
         terms.start(seeds, number),
@@ -172,8 +178,9 @@ def play_game(
         number=number,
         players=players,
         allowance_ns=timing.allowance_ns if timing else None,
+        budget=None if granted is None else GrantedBudget(granted, "by_driver"),
     )
-    shown = _terms(header, budget[0].allowed)
+    shown = _terms(header)
     return _Table(header, chairs, seeds, shown, score, budget, watch or Watch(), timing).play()
 
 
@@ -341,7 +348,7 @@ class _Table:
         return ClockView(seconds_left=left, running=seat == turn, simulations_left=simulations)
 
 
-def _terms(header: Header, simulations: int | None) -> GameTerms:
+def _terms(header: Header) -> GameTerms:
     terms = header.terms
     limits, noise = terms.rules.limits, terms.noise
     return GameTerms(
@@ -353,7 +360,7 @@ def _terms(header: Header, simulations: int | None) -> GameTerms:
         rules="eight_ball",
         table=terms.rules.table.to_dict(),
         noise=NoiseView(told=noise.told, level=noise.level if noise.told else None),
-        budget=None if simulations is None else BudgetView(simulations=simulations, counted="by_driver"),
+        budget=None if header.budget is None else BudgetView.model_validate(header.budget.to_dict()),
         dry_visits_limit=limits.dry_visits,
         replays_limit=limits.replays,
         strokes_limit=limits.strokes,

@@ -12,7 +12,7 @@ from typing import Any
 from physics.status import Status
 from referee.errors import InvalidGame
 from referee.game import Game, Outcome
-from referee.play import GameSeeds, Stroke, client_seeds_from_hex
+from referee.play import GameSeeds, GrantedBudget, Stroke, client_seeds_from_hex
 from referee.play.seeds import ClientSeeds
 from referee.record.chain import Chain
 from referee.record.commitment import FORMAT, MatchTerms
@@ -28,6 +28,7 @@ class Header:
         game: id. number: of the game in its match, from 0.
         players: names, by seat.
         allowance_ns: thinking time of each player; None without clocks.
+        budget: of simulated shots; None without one.
         client_seeds: what the players added to the draw, after the commitment.
         commitment: to the terms and the secrets (``MatchTerms.commitment``).
         start: the game before its first stroke: the balls racked, or the position that was given.
@@ -38,6 +39,7 @@ class Header:
     number: int
     players: tuple[str, str]
     allowance_ns: int | None
+    budget: GrantedBudget | None
     client_seeds: ClientSeeds
     commitment: str
     start: Game
@@ -58,6 +60,7 @@ class Header:
         number: int = 0,
         players: tuple[str, str],
         allowance_ns: int | None = None,
+        budget: GrantedBudget | None = None,
     ) -> "Header":
         """The header of a game about to be played."""
         return cls(
@@ -66,6 +69,7 @@ class Header:
             number=number,
             players=players,
             allowance_ns=allowance_ns,
+            budget=budget,
             client_seeds=seeds.client_seeds,
             commitment=terms.commitment(seeds, number),
             start=start,
@@ -80,6 +84,7 @@ class Header:
             "number": self.number,
             "players": list(self.players),
             "allowance_ns": self.allowance_ns,
+            "budget": None if self.budget is None else self.budget.to_dict(),
             "client_seeds": [None if seed is None else seed.hex() for seed in self.client_seeds],
             "commitment": self.commitment,
             "start": self.start.to_dict(),
@@ -103,6 +108,7 @@ class Header:
                 number=values["number"],
                 players=(first, second),
                 allowance_ns=values["allowance_ns"],
+                budget=None if values["budget"] is None else GrantedBudget.from_dict(values["budget"]),
                 client_seeds=client_seeds_from_hex((own_first, own_second)),
                 commitment=values["commitment"],
                 start=Game.from_dict(values["start"]),
@@ -132,7 +138,13 @@ def stroke_entry(stroke: Stroke, entry: int, elapsed_ns: int | None = None) -> d
     }
 
 
-def end_entry(entries: int, outcome: Outcome, seeds: GameSeeds, elapsed_ns: Sequence[int] = (0, 0)) -> dict[str, Any]:
+def end_entry(
+    entries: int,
+    outcome: Outcome,
+    seeds: GameSeeds,
+    elapsed_ns: Sequence[int] = (0, 0),
+    simulated: Sequence[int] | None = None,
+) -> dict[str, Any]:
     """The object of the line that ends the game and reveals its secrets.
 
     Args:
@@ -140,12 +152,14 @@ def end_entry(entries: int, outcome: Outcome, seeds: GameSeeds, elapsed_ns: Sequ
         outcome: the result.
         seeds: of the game, now revealed.
         elapsed_ns: thinking time, by seat, charged after the last stroke: what a time-out rests on.
+        simulated: shots counted against the budget, by seat; None without one.
     """
     return {
         "type": "end",
         "entries": entries,
         "outcome": outcome.to_dict(),
         "elapsed_ns": list(elapsed_ns),
+        "simulated": None if simulated is None else list(simulated),
         "noise_secret": seeds.noise.hex(),
         "rack_secret": seeds.racks.hex(),
     }
@@ -157,13 +171,14 @@ def record_lines(
     outcome: Outcome,
     seeds: GameSeeds,
     elapsed_ns: Sequence[int] = (0, 0),
+    simulated: Sequence[int] | None = None,
 ) -> Iterator[str]:
     """The whole record of a finished game, chained and unsigned, line by line, without line ends.
 
     Args:
         header: of the game.
         strokes: each with the thinking time charged for it.
-        outcome, seeds, elapsed_ns: as for ``end_entry``.
+        outcome, seeds, elapsed_ns, simulated: as for ``end_entry``.
     """
     chain = Chain()
     yield chain.add(header.to_dict())
@@ -171,7 +186,7 @@ def record_lines(
     for stroke, elapsed in strokes:
         yield chain.add(stroke_entry(stroke, entries, elapsed))
         entries += 1
-    yield chain.add(end_entry(entries, outcome, seeds, elapsed_ns))
+    yield chain.add(end_entry(entries, outcome, seeds, elapsed_ns, simulated))
     yield chain.add(unsigned_seal())
 
 

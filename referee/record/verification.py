@@ -1,7 +1,7 @@
 """Verification: play a recorded game again from its secrets and actions, and compare everything.
 
 Nothing but the record is needed, and nothing in it is believed except who asked for what, how long they
-thought, and how a game that no stroke decided was ended.
+thought, how many shots they simulated, and how a game that no stroke decided was ended.
 """
 
 import os
@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from physics.errors import PhysicsError
 from referee.errors import InvalidGame, RefereeError
 from referee.game import Action, EndReason, Game, Outcome
-from referee.play import Clocks, GameSeeds, Refused, play_stroke, seed_from_hex
+from referee.play import Clocks, GameSeeds, GrantedBudget, Refused, play_stroke, seed_from_hex
 from referee.record.canonical import plain
 from referee.record.chain import PREVIOUS, ChainFault, chain_fault
 from referee.record.difference import Difference, first_difference
@@ -50,6 +50,8 @@ class Verification:
         verdict: the gravest finding; chain and seal are told beside any other.
         strokes: how many strokes and decisions were verified.
         outcome: of the game, when everything follows.
+        budget: of simulated shots that the terms grant, None without one. simulated: how many were, by seat: as the
+            server counted and the players declared.
         difference: the first one.
         needs: the engine that is needed, when it is another than the one that is running.
         chain: where the chain is broken; None if it is whole.
@@ -60,6 +62,8 @@ class Verification:
     verdict: Verdict
     strokes: int = 0
     outcome: Outcome | None = None
+    budget: GrantedBudget | None = None
+    simulated: tuple[int, int] | None = None
     difference: Difference | None = None
     needs: Engine | None = None
     chain: ChainFault | None = None
@@ -72,8 +76,16 @@ class Verification:
         return self.verdict is Verdict.VERIFIED
 
     def __str__(self) -> str:
-        parts = (self._finding(), self.chain and f"broken chain: {self.chain}", self.seal)
+        parts = (self._finding(), self._counted(), self.chain and f"broken chain: {self.chain}", self.seal)
         return "; ".join(str(part) for part in parts if part is not None)
+
+    def _counted(self) -> str | None:
+        """The budget of simulated shots and what was counted against it."""
+        if self.budget is None or self.simulated is None:
+            return None
+        first, second = self.simulated
+        who = "by honour" if self.budget.counted == "by_honour" else "by the driver"
+        return f"{first} and {second} of {self.budget.simulations} simulated shots each, counted {who}"
 
     def _finding(self) -> str | None:
         """What the game played again has shown."""
@@ -152,7 +164,9 @@ class _Replay:
         found_end = self._end(game)
         if isinstance(found_end, Difference):
             return Verification(Verdict.DIFFERENT, strokes, difference=found_end)
-        return Verification(Verdict.VERIFIED, strokes, outcome=found_end)
+        return Verification(
+            Verdict.VERIFIED, strokes, outcome=found_end, budget=self.header.budget, simulated=self._simulated()
+        )
 
     def _header(self, game: Game) -> Difference | None:
         """The commitment, breaker and first rack follow from the revealed secrets; nothing else is in the header."""
@@ -166,7 +180,7 @@ class _Replay:
         action = _read("action", Action.from_dict, entry.get("action"), line)
         elapsed_ns = entry.get("elapsed_ns")
         if elapsed_ns is not None:
-            self.charges.append((game.turn, _charge(elapsed_ns, line)))
+            self.charges.append((game.turn, _count("elapsed_ns", elapsed_ns, line)))
         index = None if action.shot is None else game.stroke
         try:
             stroke = play_stroke(self.header.terms.rules, game, action, self.seeds, self.header.terms.noise)
@@ -182,13 +196,26 @@ class _Replay:
         if not isinstance(elapsed_ns, list) or len(elapsed_ns) != 2:
             raise InvalidRecord(f"line {line}, elapsed_ns", elapsed_ns, "must be two integers, by seat")
         for seat in (0, 1):
-            self.charges.append((seat, _charge(elapsed_ns[seat], line)))
+            self.charges.append((seat, _count("elapsed_ns", elapsed_ns[seat], line)))
         recorded = _read("outcome", Outcome.from_dict, end.get("outcome"), line)
         outcome = game.outcome or self._ended_outside(game, recorded)
         if outcome is None:
             return Difference(line, None, None, None, "outcome", recorded.to_dict(), "no end: the game goes on")
-        derived = end_entry(len(self.record.entries), outcome, self.seeds, elapsed_ns)
+        simulated, budget = self._simulated(), self.header.budget
+        if simulated and budget and max(simulated) > budget.simulations:
+            allowed = f"at most {budget.simulations} for each: no more is granted"
+            return Difference(line, None, None, None, "simulated", list(simulated), allowed)
+        derived = end_entry(len(self.record.entries), outcome, self.seeds, elapsed_ns, simulated)
         return _difference(end, derived, line) or outcome
+
+    def _simulated(self) -> tuple[int, int] | None:
+        """What was counted against the budget, by seat; None without one."""
+        if self.header.budget is None:
+            return None
+        line, counts = len(self.record.entries) + 2, self.record.end.get("simulated")
+        if not isinstance(counts, list) or len(counts) != 2:
+            raise InvalidRecord(f"line {line}, simulated", counts, "must be two integers, by seat")
+        return _count("simulated", counts[0], line), _count("simulated", counts[1], line)
 
     def _ended_outside(self, game: Game, recorded: Outcome) -> Outcome | None:
         """The outcome when ``game`` is ended for the recorded reason; None if that cannot end it."""
@@ -221,11 +248,11 @@ def _seeds(end: Mapping[str, Any], header: Header, line: int) -> GameSeeds:
     return GameSeeds(noise, racks, header.client_seeds, header.terms.shared_racks)
 
 
-def _charge(elapsed_ns: Any, line: int) -> int:
-    """Thinking time as a line gives it."""
-    if isinstance(elapsed_ns, bool) or not isinstance(elapsed_ns, int) or elapsed_ns < 0:
-        raise InvalidRecord(f"line {line}, elapsed_ns", elapsed_ns, "must be an integer >= 0")
-    return elapsed_ns
+def _count(name: str, value: Any, line: int) -> int:
+    """A number of nanoseconds or of shots as a line gives it."""
+    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+        raise InvalidRecord(f"line {line}, {name}", value, "must be an integer >= 0")
+    return value
 
 
 def _read(name: str, reader: Callable[[Any], T], value: Any, line: int) -> T:

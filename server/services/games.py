@@ -11,7 +11,7 @@ from typing import Any, Final
 from sqlalchemy import Connection, Row, bindparam, func, insert, select, update
 
 from referee.game import EndReason, Game
-from referee.play import Charge
+from referee.play import Charge, GrantedBudget
 from referee.record import Chain, Header, end_entry, signed_seal
 from server.errors import StaleVersion
 from server.security import keys
@@ -38,6 +38,7 @@ def begin(writing: Writing, match: Row[Any], number: int) -> None:
         number=number,
         players=player_names(writing.connection, match),
         allowance_ns=match.allowance,
+        budget=None if match.simulations is None else GrantedBudget(match.simulations, "by_honour"),
     )
     row = {
         "id": header.game,
@@ -115,7 +116,8 @@ def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
     entries, after_last_move = _count_moves(writing.connection, live.id), [0, 0]
     if end.move is None:
         after_last_move[live.game.turn] = end.charge.charged_ns
-    ending = chain.add(end_entry(entries, outcome, live.seeds, after_last_move))
+    simulated = None if live.match.simulations is None else _simulated(live, end)
+    ending = chain.add(end_entry(entries, outcome, live.seeds, after_last_move, simulated))
     seal = signed_seal(keys.active(writing.connection, writing.now), chain.head, keys.time_text(writing.now))
     values = {
         "status": ABORTED if aborted else FINISHED,
@@ -170,7 +172,7 @@ def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, values: d
         "version": live.row.version + 1,
         f"used_{seat}": live.clocks.used_ns[seat] + charge.charged_ns,
         f"lag_{seat}": live.granted[seat] + charge.lag_ns,
-        f"simulated_{seat}": (live.row.simulated_0, live.row.simulated_1)[seat] + end.simulated,
+        f"simulated_{seat}": _simulated(live, end)[seat],
         f"present_{seat}": live.is_present[seat] or end.move is not None,
     } | values
     seen = {"seen_id": live.id, "seen_version": live.row.version}
@@ -184,6 +186,12 @@ def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, values: d
 _IF_UNCHANGED: Final = update(games).where(
     games.c.id == bindparam("seen_id"), games.c.version == bindparam("seen_version")
 )
+
+
+def _simulated(live: LiveGame, end: TurnEnd) -> tuple[int, int]:
+    """Shots simulated in the game, by seat, with what the end of this turn declares."""
+    declared = (end.simulated, 0) if live.game.turn == 0 else (0, end.simulated)
+    return live.row.simulated_0 + declared[0], live.row.simulated_1 + declared[1]
 
 
 def _count_moves(connection: Connection, game_id: str) -> int:

@@ -9,6 +9,7 @@ import client
 import physics
 from client.errors import BudgetSpent as RefusedForBudget
 from client.run import run_agent
+from referee.record import verify_record
 from referee.wire import ClockTerms
 
 BREAK = client.Action(shot=physics.Shot(9.0, 270.0, 5.0), cue_ball=(0.558, 1.75))
@@ -52,6 +53,20 @@ def test_what_is_declared_counts_with_the_stroke_and_more_than_is_left_is_refuse
         answer = player.play(view.game, view.version, BREAK, simulated=10)
         assert answer.clocks[0].simulations_left == 0
         assert answer.clocks[1].simulations_left == 10
+
+
+def test_the_record_holds_the_budget_and_what_was_counted(hall):
+    entries = begun(hall, 10)
+    with seat_0(hall, entries) as player, client.Pooliad(hall.url, entries[1].token) as other:
+        view = player.turns(10).view
+        player.simulate(view.table_model(), view.state, SHOT, game=view.game)
+        view = player.play(view.game, view.version, BREAK, simulated=4).view
+        (player, other)[view.turn].play(view.game, view.version, CONCEDE)
+        found = verify_record(player.record(view.game).decode().splitlines())
+    assert found.ok
+    assert found.budget.to_dict() == {"simulations": 10, "counted": "by_honour"}
+    assert found.simulated == (5, 0)
+    assert "5 and 0 of 10 simulated shots each, counted by honour" in str(found)
 
 
 def test_an_agents_simulator_is_declared_and_knows_what_is_left(hall):

@@ -306,7 +306,7 @@ def test_junk_anywhere_is_an_answer_and_never_an_exception(data):
     assert not verification.ok or key in _BELIEVED or before == node[key]
 
 
-_BELIEVED = {"game", "players", "elapsed_ns", "allowance_ns", 0, 1, "previous"}
+_BELIEVED = {"game", "players", "elapsed_ns", "allowance_ns", "budget", "simulated", 0, 1, "previous"}
 """What a record says about who played, where, and how long they thought, no replay can contradict. The chain is
 written anew here: whoever lies may do that, too."""
 
