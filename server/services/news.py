@@ -10,7 +10,7 @@ from sqlalchemy import Connection, Row, Select, func, select
 
 from referee.wire import GameAnswer, StreamClocks, StreamConnections, StreamResult, of_many
 from server.services.context import Context
-from server.services.live import LiveGame, find
+from server.services.live import LiveGame, find, score_of
 from server.services.match_views import summary
 from server.store.tables import games, heartbeats, matches, moves
 
@@ -74,7 +74,7 @@ def opening(context: Context, game_id: str, after: int | None) -> tuple[list[New
         told = [] if after is None else list(_strokes(connection, game_id, after))
         standing = _standing(context, connection, live)
         first = GameAnswer(**summary(live.row), view=live.view(connection, None, context.time.now()))
-        news = [News(game_id, "game", first.model_dump_json()), *told, *_rest(context, live, standing)]
+        news = [News(game_id, "game", first.model_dump_json()), *told, *_rest(context, connection, live, standing)]
     return news, standing
 
 
@@ -89,7 +89,7 @@ def since(context: Context, known: Mapping[str, Standing]) -> tuple[list[News], 
         for game_id in _moved(context, connection, known):
             live, before = find(connection, game_id), known[game_id]
             after = standings[game_id] = _standing(context, connection, live)
-            news += [*_strokes(connection, game_id, before.sequence), *_rest(context, live, after, before)]
+            news += [*_strokes(connection, game_id, before.sequence), *_rest(context, connection, live, after, before)]
     return news, standings
 
 
@@ -104,7 +104,9 @@ def _moved(context: Context, connection: Connection, known: Mapping[str, Standin
     return [row.id for row in rows if _marks(here, row, (row.seat_0, row.seat_1)) != known[row.id].marks]
 
 
-def _rest(context: Context, live: LiveGame, after: Standing, before: Standing | None = None) -> Iterator[News]:
+def _rest(
+    context: Context, connection: Connection, live: LiveGame, after: Standing, before: Standing | None = None
+) -> Iterator[News]:
     """Clocks and players, where they differ from before; the result."""
     if before is None or before.marks[:-1] != after.marks[:-1]:
         turn = live.game.turn if live.is_running else None
@@ -114,13 +116,14 @@ def _rest(context: Context, live: LiveGame, after: Standing, before: Standing | 
         connections = StreamConnections(connected=after.marks.connected)
         yield News(live.id, "connections", connections.model_dump_json())
     if not live.is_running:
-        yield News(live.id, RESULT, _result(live).model_dump_json())
+        yield News(live.id, RESULT, _result(connection, live).model_dump_json())
 
 
-def _result(live: LiveGame) -> StreamResult:
+def _result(connection: Connection, live: LiveGame) -> StreamResult:
+    """The score is that of the match with this game: a view has the score it is played at."""
     summed = summary(live.row)
     kept = {name: summed[name] for name in ("status", "outcome", "noise_seed")}
-    return StreamResult(**kept, score=live.score, record=f"/v1/games/{live.id}/record")
+    return StreamResult(**kept, score=score_of(connection, live.match.id), record=f"/v1/games/{live.id}/record")
 
 
 def _strokes(connection: Connection, game_id: str, after: int) -> Iterator[News]:

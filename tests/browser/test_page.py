@@ -29,13 +29,23 @@ def addresses(match) -> dict[str, str]:
     }
 
 
-def sign_in(page, server) -> None:
-    """Into the page's tab, by the token of a fresh agent."""
+def sign_in(page, server) -> str:
+    """Into the page's tab, by the token of a fresh agent; its id."""
     made = server.register()
     page.goto(f"{server.url}/#/play")
     page.get_by_label("Or come back with your token").fill(made["token"])
     page.get_by_role("button", name="Sign in").click()
     page.get_by_text("You are").wait_for()
+    return str(made["agent"]["id"])
+
+
+def take_a_turn(page, server, agent: str) -> None:
+    """At the table, with the cue ball in hand."""
+    request = {"agents": [agent, server.register()["agent"]["id"]], "first_breaker": 0, "clock": {"seconds": 3600}}
+    assert server.send("POST", "/v1/matches", json=request).status_code == 201
+    page.goto(f"{server.url}/#/play")
+    page.reload()
+    page.get_by_role("region", name="Your turn").wait_for()
 
 
 def show(page, server, match, view: str) -> None:
@@ -53,12 +63,14 @@ def test_axe_finds_nothing(new_page, server, match, scheme):
     page.goto(f"{server.url}/#/play")
     page.get_by_label("New here").wait_for()
     found["signed out"] = violations(page)
-    sign_in(page, server)
+    agent = sign_in(page, server)
     for view in VIEWS:
         show(page, server, match, view)
         if view == "game":
             page.locator("summary", has_text="Events").click()
         found[view] = violations(page)
+    take_a_turn(page, server, agent)
+    found["turn"] = violations(page)
     assert [(view, *faults) for view, faults in found.items() if faults] == []
     page.evaluate("document.querySelector('main').append(document.createElement('button'))")
     assert any(fault.startswith("button-name") for fault in violations(page)), "axe looks at nothing"
@@ -73,9 +85,12 @@ def violations(page) -> list[str]:
 
 def test_every_view_fits_a_phone(new_page, server, match):
     page = new_page(390, 844, has_touch=True, is_mobile=True)
-    sign_in(page, server)
-    for view in VIEWS:
-        show(page, server, match, view)
+    agent = sign_in(page, server)
+    for view in (*VIEWS, "turn"):
+        if view == "turn":
+            take_a_turn(page, server, agent)
+        else:
+            show(page, server, match, view)
         page.wait_for_timeout(200)
         assert page.evaluate("document.documentElement.scrollWidth") <= 390, view
         small = page.evaluate(SMALL)

@@ -28,6 +28,7 @@ def test_a_live_game_is_watched_to_its_end(page, server):
         page.locator("ol.strokes li").nth(played - 1).wait_for()
     concede(match)
     page.locator(".result", has_text="wins: concession").wait_for()
+    assert sorted(page.locator(".score").all_inner_texts()) == ["0", "1"]
     page.locator("ol.strokes li").nth(6).wait_for()
     assert page.locator("ol.strokes li").count() == 7
     seconds = page.locator("output.time").inner_text

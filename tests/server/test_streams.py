@@ -39,6 +39,7 @@ def test_a_game_from_the_break_to_its_result(server, new_table, break_shot):
     record = table.organiser.get(f"/v1/games/{game}/record").text.splitlines()
     assert [json.loads(line) for line in record[1:-2]] == [stroke.data, decision.data]
     assert rest[-1].data["outcome"]["reason"] == "concession"
+    assert sorted(rest[-1].data["score"]) == [0.0, 1.0]
     assert rest[-1].data["record"] == f"/v1/games/{game}/record"
     assert rest[-1].data["noise_seed"] == table.organiser.get(f"/v1/games/{game}").json()["noise_seed"]
 
