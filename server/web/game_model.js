@@ -18,6 +18,8 @@ export class GameModel {
     /** @type {any} */
     this.result = null;
     this.score = [0, 0];
+    /** @type {Record<string, any> | null} the referee's state before the first entry */
+    this.first = null;
     /** When the clocks were told, on the reader's own clock, ms. */
     this.toldAt = 0;
   }
@@ -25,8 +27,9 @@ export class GameModel {
   /** From the first event of a stream. @param {Record<string, any>} game */
   static ofEvent(game) {
     const { view } = game;
-    const { players, table, noise, number, games, match, balls } = view;
+    const { players, table, noise, number, games, match, balls, groups, turn } = view;
     const made = new GameModel({ id: game.id, players, table, noise, number, games, match, balls });
+    made.first = { state: balls, groups, turn };
     made.score = view.score;
     return made;
   }
@@ -44,6 +47,7 @@ export class GameModel {
     }
     const { game: id, players, table, noise, number, match, start } = header;
     const made = new GameModel({ id, players: players.map(String), table, noise, number, games: null, match, balls: start.state });
+    made.first = start;
     for (const line of lines.slice(1)) {
       if (line.type === "stroke") made.entries.push(line);
       if (line.type === "end") made.result = { outcome: line.outcome, score: null };

@@ -99,7 +99,7 @@ export class GameView {
     fill(this.terms, facts(`Game ${number + 1}${fromServer ? ` of ${games}` : ""}`,
       fromServer && match && el("a", { href: `#/matches/${match}` }, "the match"), describeNoise(noise), this.mark, this.links));
     if (fromServer && match) this.showMark(match);
-    this.board.show(this.model, null);
+    this.board.show(this.model, this.shownState());
   }
 
   /** Whether the match counts is said by the match alone. @param {string} match */
@@ -167,7 +167,7 @@ export class GameView {
   }
 
   shownState() {
-    return this.model.entries[this.shown]?.game ?? null;
+    return this.model.entries[this.shown]?.game ?? this.model.first;
   }
 
   /** The same stroke as it was meant: simulated by the server, laid over the picture. */
