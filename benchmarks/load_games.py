@@ -24,14 +24,16 @@ class Player:
     match: str
 
 
-async def begin(wire: Connection, number: int, organiser: str) -> tuple[Player, Player]:
-    """A match without end between two fresh agents."""
+async def begin(
+    wire: Connection, number: int, organiser: str, games: int = 1000, seconds: float = 86_400
+) -> tuple[Player, Player]:
+    """A match between two fresh agents; unless told one that does not end while it is measured."""
     made = [await wire.post("/v1/agents", {"name": f"load {number} {seat}"}) for seat in (0, 1)]
     terms = {
         "agents": [one["agent"]["id"] for one in made],
-        "games": 1000,
+        "games": games,
         "seed": f"{number:064x}",
-        "clock": {"seconds": 86_400},
+        "clock": {"seconds": seconds},
     }
     match = await wire.post("/v1/matches", terms, organiser, f"load {number}")
     one, two = (Player(each["token"], match["id"]) for each in made)

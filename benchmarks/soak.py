@@ -1,19 +1,24 @@
 """Thousands of games over HTTP, in search of a time-out that nothing explains.
 
-``python -m benchmarks.soak --games 20000``
+``python -m benchmarks.soak --games 20000 --minutes 120``
 
-Every player takes its turns from the long poll, answers at once, and is never silent: whoever loses on time or for not
-showing up does so by a fault of the server. Prints how many turns and hours that was, and how often it can happen at
-most, with 95 % confidence, if it was seen so seldom (Clopper and Pearson; three in n when it was never seen).
+Every player takes its turns from the long poll, answers at once, and is never silent: whoever loses on time or for
+not showing up does so by a fault of the server. It ends with the games or with the minutes. Prints how many turns and
+hours that was, and how often it can happen at most, with 95 % confidence, if it was seen so seldom (Clopper and
+Pearson; three in n when it was never seen).
 """
 
+import argparse
 import asyncio
+import itertools
 import json
+import math
 import os
 import sys
 import tempfile
 import time
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from scipy.stats import beta
@@ -26,8 +31,13 @@ from benchmarks.recording import Tables
 
 AT_ONCE = 16
 """Matches at a time."""
+MATCH_GAMES = 50
+"""Then the match is over and two fresh agents begin another."""
+CLOCK = 300.0
+"""Seconds a player has for a game: hundreds of times what it needs on a machine that does nothing else."""
 STROKES = 24
 """A game is given up after so many: more games in the same time, and ends of both kinds."""
+FULL = 20_000
 CONFIDENCE = 0.95
 UNEXPLAINED = ("time_out", "no_show")
 
@@ -37,11 +47,16 @@ class Exposure:
     """What was played.
 
     Attributes:
-        ends: games by their reason. turns: strokes and decisions answered. waited_s: by players for their answers.
+        wanted: games after which it is over. until: s, on this machine's clock, when it is over at the latest.
+        ends: games by their reason. turns: strokes and decisions answered.
+        refused: strokes that could not be. waited_s: by players for their answers.
     """
 
+    wanted: int
+    until: float
     ends: Counter[str] = field(default_factory=Counter)
     turns: int = 0
+    refused: int = 0
     waited_s: float = 0.0
 
     @property
@@ -49,42 +64,52 @@ class Exposure:
         """Games that ended."""
         return self.ends.total()
 
+    @property
+    def is_over(self) -> bool:
+        """Whether that is enough."""
+        return self.games >= self.wanted or time.perf_counter() >= self.until
+
 
 def bound(seen: int, of: int) -> float:
     """The one-sided upper bound of a probability that was seen so often."""
     return 1.0 if seen >= of else float(beta.ppf(CONFIDENCE, seen + 1, of - seen))
 
 
-async def soak(games: int) -> Exposure:
-    """Play until so many games have ended."""
-    exposure = Exposure()
+async def soak(games: int, minutes: float) -> Exposure:
+    """Play until so many games have ended, or so many minutes have passed."""
+    exposure = Exposure(games, time.perf_counter() + 60.0 * minutes)
     with (
         tempfile.TemporaryDirectory() as folder,
         serving("server", "--database", f"sqlite:///{folder}/soak.db") as port,
     ):
         await ready(port)
         async with connections(port, 2 * AT_ONCE) as wires:
-            pairs = [(wires[2 * number], wires[2 * number + 1]) for number in range(AT_ONCE)]
-            tables = [await begin(pair[0], number, ORGANISER) for number, pair in enumerate(pairs)]
-            players = [
-                attend(wire, table, seat, games, exposure)
-                for pair, table in zip(pairs, tables, strict=True)
-                for seat, wire in enumerate(pair)
-            ]
-            await asyncio.gather(*players)
+            numbers = itertools.count()
+            await asyncio.gather(
+                *(pair_up(wires[place], wires[place + 1], numbers, exposure) for place in range(0, 2 * AT_ONCE, 2))
+            )
     return exposure
 
 
-async def attend(wire: Connection, table: tuple[Player, Player], seat: int, games: int, exposure: Exposure) -> None:
-    """One player: the next message, and what it asks for."""
+async def pair_up(one: Connection, two: Connection, numbers: Iterator[int], exposure: Exposure) -> None:
+    """Match after match."""
+    while not exposure.is_over:
+        table = await begin(one, next(numbers), ORGANISER, games=MATCH_GAMES, seconds=CLOCK)
+        await asyncio.gather(*(attend(wire, table, seat, exposure) for seat, wire in enumerate((one, two))))
+
+
+async def attend(wire: Connection, table: tuple[Player, Player], seat: int, exposure: Exposure) -> None:
+    """One player in one match: the next message, and what it asks for."""
     poll = Connection.request("GET", "/v1/turns?wait=2", headers=f"Authorization: Bearer {table[seat].token}\r\n")
     refused = 0
-    while exposure.games < games:
+    while not exposure.is_over:
         reply = await wire.send(poll)
         if reply.status != 200:
             assert reply.status == 204, reply.body
             continue
         message = json.loads(reply.body)
+        if message["type"] == "match_over":
+            return
         if message["type"] == "game_over" and seat == 0:
             exposure.ends[message["outcome"]["reason"]] += 1
         if message["type"] == "turn":
@@ -101,21 +126,27 @@ async def answer(
     started = time.perf_counter()
     reply = await wire.send(head, body)
     exposure.waited_s += time.perf_counter() - started
-    assert reply.status in (200, 422), reply.body
+    if reply.status not in (200, 422):  # whoever lost on time meanwhile is told so, and counted at the game's end
+        assert json.loads(reply.body)["code"] in ("out_of_time", "game_finished"), reply.body
+        return 0
+    exposure.refused += reply.status == 422
     exposure.turns += reply.status == 200
     return refused + 1 if reply.status == 422 else 0
 
 
-def measure(games: int) -> Tables:
+def measure(games: int, minutes: float) -> Tables:
     """Play, and account for it."""
     started = time.perf_counter()
-    exposure = asyncio.run(soak(games))
+    exposure = asyncio.run(soak(games, minutes))
+    hours = (time.perf_counter() - started) / 3600
     unexplained = sum(exposure.ends[reason] for reason in UNEXPLAINED)
     row = {
         "games": exposure.games,
         "player_turns": exposure.turns,
-        "hours": round((time.perf_counter() - started) / 3600, 3),
-        "game_hours": round(AT_ONCE * (time.perf_counter() - started) / 3600, 2),
+        "refused": exposure.refused,
+        "hours": round(hours, 3),
+        "game_hours": round(AT_ONCE * hours, 2),
+        "games_a_minute": round(exposure.games / hours / 60, 1),
         "unexplained_time_outs": unexplained,
         "at_most_a_game_95": bound(unexplained, exposure.games),
         "at_most_a_turn_95": bound(unexplained, exposure.turns),
@@ -126,10 +157,14 @@ def measure(games: int) -> Tables:
 
 
 def main() -> None:
-    """`--games N`; a full run has 20,000."""
-    words = sys.argv[1:]
-    games = int(words[words.index("--games") + 1]) if "--games" in words else 20_000 if "--full" in words else 100
-    line = recording.run("soak", lambda _: measure(games), full=games >= 20_000)
+    """A run is a full one when 20,000 games were asked for and not cut short by the minutes."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--games", type=int, default=100, help="a full run has 20,000")
+    parser.add_argument("--full", dest="games", action="store_const", const=FULL)
+    parser.add_argument("--minutes", type=float, default=math.inf, help="no longer than this")
+    told = parser.parse_args()
+    full = told.games >= FULL and math.isinf(told.minutes)
+    line = recording.run("soak", lambda _: measure(told.games, told.minutes), full)
     sys.exit(1 if line["tables"]["exposure"][0]["unexplained_time_outs"] > 1 else 0)
 
 

@@ -47,7 +47,7 @@ class Settings:
     database: str = setting(
         "sqlite:///pooliad.db", "where everything is kept: `sqlite:///path` or `postgresql://user@host/name`"
     )
-    database_seconds: float = setting(5.0, "a request waits so long for the database, then it is answered 503")
+    database_seconds: float = setting(5.0, "a writer waits so long for an SQLite file that another process has locked")
     registration: str = setting("open", "who may register agents: `open`, `invited`, `closed`", one_of=REGISTRATIONS)
     public_reads: bool = setting(True, "whether games, lists and records are read without a token")
     token_seconds: float = setting(0.0, "how long agents' tokens are good for; 0: until revoked", zero=True)

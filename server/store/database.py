@@ -16,7 +16,11 @@ from server.store.membership import AloneMembership, Membership, SharedMembershi
 
 
 class Database:
-    """One database by its URL; nobody waits for it longer than so many seconds.
+    """One database by its URL.
+
+    Args:
+        url: where it is.
+        wait: seconds for an SQLite file that another process has locked.
 
     Attributes:
         is_shared: whether several server processes may work on it at once.
@@ -26,9 +30,9 @@ class Database:
     def __init__(self, url: str, wait: float = outages.WAIT_SECONDS) -> None:
         self.url = url
         self.is_shared = postgresql.is_ours(url)
-        self._engine = (postgresql if self.is_shared else sqlite).engine(url, wait)
+        self._engine = postgresql.engine(url) if self.is_shared else sqlite.engine(url, wait)
         self._reader = self._engine.execution_options(**postgresql.READING) if self.is_shared else self._engine
-        self._writer: AbstractContextManager[None] = contextlib.nullcontext() if self.is_shared else _WritersPlace(wait)
+        self._writer: AbstractContextManager[None] = contextlib.nullcontext() if self.is_shared else _WritersPlace()
         self.membership: Membership = SharedMembership(self._engine) if self.is_shared else AloneMembership(url)
 
     @contextmanager
@@ -64,11 +68,11 @@ class Database:
 class _WritersPlace:
     """A lock on which nobody waits for ever: behind a writer that is stuck everybody is told so."""
 
-    def __init__(self, wait: float) -> None:
-        self._lock, self._wait = threading.Lock(), wait
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
 
     def __enter__(self) -> None:
-        if not self._lock.acquire(timeout=self._wait):
+        if not self._lock.acquire(timeout=outages.QUEUE_SECONDS):
             raise outages.unavailable()
 
     def __exit__(self, *_: object) -> None:

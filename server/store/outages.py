@@ -13,7 +13,11 @@ from server.errors import Unavailable
 log = logging.getLogger("pooliad.server.store")
 
 WAIT_SECONDS: Final = 5.0
-"""How long anything waits for a connection, a lock or the writer's place before it gives up, unless told."""
+"""How long a writer waits for another process that has the file locked, unless told."""
+QUEUE_SECONDS: Final = 30.0
+"""How long anything waits behind others of ours, for a connection, a lock or the writer's place: a machine that is
+merely slow is no outage.
+"""
 
 _PASSING: Final = frozenset(
     {

@@ -1,11 +1,11 @@
 """PostgreSQL, by psycopg 3: several server processes on one database."""
 
-import math
-from functools import partial
 from typing import Any, Final
 
 from sqlalchemy import Engine, create_engine, event
 from sqlalchemy.engine import make_url
+
+from server.store.outages import QUEUE_SECONDS
 
 SCHEME = "postgresql://"
 POOL_SIZE = 8
@@ -33,19 +33,19 @@ def is_ours(url: str) -> bool:
     return url.startswith(SCHEME)
 
 
-def engine(url: str, wait: float) -> Engine:
+def engine(url: str) -> Engine:
     """The connections of a database, READ COMMITTED: a statement after a lock sees what was written before it.
 
-    Nobody waits longer than so many seconds for a connection, or for a lock behind a transaction that is stuck.
+    Nobody waits for ever for a connection, or for a lock behind a transaction that is stuck.
     """
     made = create_engine(
         make_url(driver_url(url)).set(drivername="postgresql+psycopg"),
         pool_size=POOL_SIZE,
         max_overflow=POOL_OVERFLOW,
-        pool_timeout=wait,
+        pool_timeout=QUEUE_SECONDS,
         isolation_level="READ COMMITTED",
     )
-    event.listen(made, "connect", partial(_bound_waits, wait))
+    event.listen(made, "connect", _bound_waits)
     return made
 
 
@@ -56,6 +56,6 @@ def driver_url(url: str) -> str:
     return address.update_query_dict(told).set(drivername="postgresql").render_as_string(hide_password=False)
 
 
-def _bound_waits(wait: float, connection: Any, _record: object) -> None:
-    connection.execute(f"SET lock_timeout = {math.ceil(1000 * wait)}")
+def _bound_waits(connection: Any, _record: object) -> None:
+    connection.execute(f"SET lock_timeout = {int(1000 * QUEUE_SECONDS)}")
     connection.commit()
