@@ -174,7 +174,7 @@ def part_row(match: Row) -> Row:
     """What a match-up against the agent without one of its parts says of that part's worth."""
     budget, _, part = match["opponent"].removesuffix("=off").rpartition(",")
     kept = ("noise", "score", "elo", "elo_low_95", "elo_high_95", "shots_per_stroke", "opponent_shots_per_stroke")
-    row = {"part": part, "player": budget, "agent": " ".join(match["agents"]), "games": 2 * match["pairs"]}
+    row = {"part": part, "player": budget, "agents": match["agents"], "games": 2 * match["pairs"]}
     return row | {name: match[name] for name in kept}
 
 
@@ -190,7 +190,7 @@ def match_row(player: str, opponent: str, noise: float, pairs: list[Row]) -> Row
         "player": player,
         "opponent": opponent,
         "noise": noise,
-        "agents": sorted({row["agent"] for row in pairs}),
+        "agents": " ".join(sorted({row["agent"] for row in pairs})),
         "pairs": len(pairs),
         "score": round(float(scores.mean()), 4),
         "low_95": round(low, 4),

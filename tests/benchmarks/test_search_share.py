@@ -70,11 +70,11 @@ def test_versions_that_play_differently_are_kept_apart(monkeypatch):
     monkeypatch.setattr(search.recording, "lines", lambda name: lines)
     tables = search.pool([["v3", "v2"], ["v1"]])
     assert [(row["opponent"], row["agents"], row["pairs"]) for row in tables["matches"]] == [
-        ("greedy", ["v2", "v3"], 3),
-        ("greedy", ["v1"], 1),
-        ("search:shots=9,ways=off", ["v1"], 2),
+        ("greedy", "v2 v3", 3),
+        ("greedy", "v1", 1),
+        ("search:shots=9,ways=off", "v1", 2),
     ]
     assert [(row["player"], row["games"]) for row in tables["strength"]] == [("search:shots=9", 6)]
-    assert [(row["part"], row["agent"], row["games"], row["elo"]) for row in tables["parts"]] == [
+    assert [(row["part"], row["agents"], row["games"], row["elo"]) for row in tables["parts"]] == [
         ("ways", "v1", 4, 0.0)
     ]
