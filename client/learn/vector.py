@@ -65,10 +65,17 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         return self._seen(), self._info()
 
     def step(self, actions: Vector) -> tuple[Vector, NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
-        """Play an action in every game, and the opponent's until it is the learner's turn in each, or it is over."""
+        """Play an action in every game, and the opponent's until it is the learner's turn in each, or it is over.
+
+        Raises:
+            ValueError: actions that are not `(num_envs, ACTION_SIZE)` numbers.
+        """
+        asked = np.asarray(actions)
+        if asked.shape != (self.num_envs, ACTION_SIZE):
+            raise ValueError(f"actions have shape {asked.shape}; it must be ({self.num_envs}, {ACTION_SIZE})")
         begun = np.flatnonzero(self._over).tolist()
         going = np.flatnonzero(~self._over).tolist()
-        self._play(going, np.asarray(actions)[going])
+        self._play(going, asked[going])
         self._begin(begun)
         self._opponent_plays(going)
         self._over = np.array([course.game.is_over for course in self._courses])

@@ -198,6 +198,14 @@ def test_settings_that_are_none_are_named(make, words):
         make()
 
 
+@pytest.mark.parametrize("actions", [np.zeros((3, 8)), np.zeros((2, 7)), np.zeros(8), np.full((2, 8), np.nan)])
+def test_actions_of_another_shape_are_named(actions):
+    env = EightBallVectorEnv(2)
+    env.reset(seed=1)
+    with pytest.raises(ValueError, match="action"):
+        env.step(actions)
+
+
 def test_the_package_loads_neither_library_before_it_is_needed():
     program = "import sys, client.learn; print([n for n in ('gymnasium', 'pettingzoo', 'numba') if n in sys.modules])"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
