@@ -112,7 +112,7 @@ def test_a_search_finds_names_by_any_part_of_them_in_pages(server, new_player):
 
 
 @pytest.mark.parametrize("route", ["agents", "matches", "tournaments"])
-@pytest.mark.parametrize("bad", ["", "x" * 65, "a\x00b", "\n"])
+@pytest.mark.parametrize("bad", ["", "x" * 65, "a\x7fb", "\n"])
 def test_what_cannot_be_searched_for_is_named(server, route, bad):
     problem = server.request("GET", f"/v1/{route}", params={"search": bad})
     assert (problem.status_code, problem.json()["field"]) == (422, "search")
