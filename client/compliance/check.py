@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from client.adapters.stdio import LOGS
 from client.cli.processes import Child
 from client.compliance.faults import Fault, FaultName, in_traffic
 from client.compliance.proxy import Exchange, Proxy
@@ -57,7 +58,7 @@ class Checker:
     Args:
         server: address of a server of one's own. organiser: its organiser's token.
         command: starts the agent; it finds `POOLIAD_URL` and `POOLIAD_TOKEN` in its environment.
-        directory: for the agent's log.
+        directory: for the agent's log, and those of the command behind it.
     """
 
     def __init__(self, server: str, organiser: str, command: Sequence[str], directory: Path) -> None:
@@ -73,7 +74,7 @@ class Checker:
         with Proxy(self._server) as proxy, Pooliad(self._server, self._token) as organiser:
             names = (f"opponent {time.time_ns():x}", f"checked {time.time_ns():x}")
             opponent, checked = organiser.register(names[0]), organiser.register(names[1])
-            environment = {"POOLIAD_URL": proxy.url, "POOLIAD_TOKEN": checked.token}
+            environment = {"POOLIAD_URL": proxy.url, "POOLIAD_TOKEN": checked.token, LOGS: str(self._directory)}
             try:
                 for situation in situations:
                     reports.append(self._try(situation, organiser, proxy, (opponent, checked), environment))

@@ -19,6 +19,12 @@ from referee.record import verify_record
 from tournament import Event
 
 
+@pytest.fixture(autouse=True)
+def logs(tmp_path, monkeypatch):
+    """What commands write to standard error goes with the test."""
+    monkeypatch.setenv("POOLIAD_AGENT_LOGS", str(tmp_path / "logs"))
+
+
 def terms_of(**values):
     return Terms.from_dict(
         {
