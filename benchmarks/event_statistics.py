@@ -1,22 +1,29 @@
 """Do the statistics of events keep their promises? Simulated events with known truth.
 
-Coverage of the 95 % interval of a score, by true score, number of pairs and share of draws; error rates of the
-sequential test; coverage of the ratings of whole tables. A share of 2,000 events around 95 % has a standard deviation
-of 0.5 %.
+Coverage of the 95 % interval of a score, by true score, number of pairs and share of draws: for few pairs exactly, over
+all that can happen, for many by simulation (a share of 2,000 events around 95 % has a standard deviation of 0.5 %);
+error rates of the sequential test; coverage of the ratings of whole tables.
 """
 
+import math
+from functools import lru_cache
+
 import numpy as np
+from numpy.typing import NDArray
 
 from benchmarks.command import main
-from benchmarks.pairs_by_lot import draw_cells
+from benchmarks.pairs_by_lot import cell_chances, draw_cells
 from benchmarks.recording import Row, Tables
 from tournament import GameResult, SprtTerms
 from tournament.statistics import SprtState, Verdict, expected_score, is_contradicted, rate, score_interval, sprt
 from tournament.statistics.bradley_terry import ELO_PER_UNIT
+from tournament.statistics.few_pairs import every_outcome
 
 SEED = 3
-EVENTS = {True: 2000, False: 200}
-SCORES, PAIRS, DRAWS = (0.5, 0.6, 0.75, 0.9), (5, 10, 20, 50, 100, 200), (0.0, 0.1, 0.4)
+EVENTS, TESTED = {True: 2000, False: 200}, {True: 5000, False: 200}
+SCORES, DRAWS = (0.5, 0.6, 0.75, 0.9), (0.0, 0.1, 0.4)
+FEW, MANY = {True: (3, 5, 10), False: (3,)}, (20, 50, 100, 200)
+PROMISE = 0.95
 TESTS = ((0.0, 100.0), (-25.0, 75.0), (0.0, 200.0))
 TABLES = ((2, 20, 0.5), (2, 100, 1.0), (4, 5, 0.7), (4, 20, 0.7), (8, 2, 0.7), (8, 5, 1.5), (12, 1, 1.0))
 """Players, pairs of each meeting, half the spread of the true strengths."""
@@ -24,13 +31,45 @@ LONGEST = 2000
 
 
 def measure(full: bool) -> Tables:
-    """All three studies."""
+    """All four studies."""
     events = EVENTS[full]
     return {
-        "coverage": [coverage(score, pairs, events) for pairs in PAIRS for score in SCORES],
-        "sprt": [errors(test, draws, events) for test in TESTS for draws in (0.0, 0.4)],
+        "few_pairs": [exact_coverage(score, pairs) for pairs in FEW[full] for score in SCORES],
+        "coverage": [coverage(score, pairs, events) for pairs in MANY for score in SCORES],
+        "sprt": [errors(test, draws, TESTED[full]) for test in TESTS for draws in (0.0, 0.4)],
         "ratings": [rating_coverage(*table, draws, events // 8) for table in TABLES for draws in (0.0, 0.4)],
     }
+
+
+def exact_coverage(score: float, pairs: int) -> Row:
+    """Chance that the interval holds the true score, and the attainable chance nearest to 95 %."""
+    row: Row = {"pairs": pairs, "true_score": score}
+    outcomes, log_ways, shortfalls = every_outcome(pairs, score)
+    low, high = intervals(pairs).T
+    for draws in DRAWS:
+        chances = np.exp(log_ways + outcomes @ np.log(np.maximum(cell_chances(score, draws), 1e-300)))
+        row[f"covered_draws_{round(100 * draws)}"] = round(float(chances[(low <= score) & (score <= high)].sum()), 4)
+        row[f"nearest_draws_{round(100 * draws)}"] = round(nearest(chances, shortfalls), 4)
+        row[f"width_draws_{round(100 * draws)}"] = round(float(chances @ (high - low)), 3)
+    return row
+
+
+@lru_cache(maxsize=8)
+def intervals(pairs: int) -> NDArray[np.float64]:
+    """The interval of every outcome, (m, 2)."""
+    outcomes, _, _ = every_outcome(pairs, 0.5)
+    return np.array([score_interval(counts) for counts in outcomes.astype(int).tolist()])
+
+
+def nearest(chances: NDArray[np.float64], shortfalls: NDArray[np.float64]) -> float:
+    """Of the coverages that leaving out the unlikeliest outcomes can have, the one nearest to what is promised.
+
+    Who knew the true distribution could choose among these; between them lies nothing.
+    """
+    order = np.argsort(shortfalls)
+    last = np.append(np.diff(shortfalls[order]) > 1e-7, True)  # equally unlikely ones are left out together
+    attainable = np.cumsum(chances[order])[last]
+    return float(attainable[np.argmin(np.abs(attainable - PROMISE))])
 
 
 def coverage(score: float, pairs: int, events: int) -> Row:
@@ -56,14 +95,22 @@ def errors(test: tuple[float, float], draws: float, events: int) -> Row:
         "elo0": test[0],
         "elo1": test[1],
         "draws": draws,
-        "false_elo1": round(verdicts0.count(Verdict.ELO1) / events, 4),
-        "false_elo0": round(verdicts1.count(Verdict.ELO0) / events, 4),
+        **share("false_elo1", verdicts0.count(Verdict.ELO1), events),
+        **share("false_elo0", verdicts1.count(Verdict.ELO0), events),
         "allowed": terms.alpha,
         "undecided": verdicts0.count(Verdict.OPEN) + verdicts1.count(Verdict.OPEN),
         "pairs_at_elo0": round(float(np.mean([state.pairs for state in at0])), 1),
         "pairs_at_elo1": round(float(np.mean([state.pairs for state in at1])), 1),
         "events": events,
     }
+
+
+def share(name: str, count: int, events: int) -> Row:
+    """A share with its 95 % interval (Wilson, JASA 22, 1927)."""
+    found, z = count / events, 1.96
+    centre = (count + z * z / 2.0) / (events + z * z)
+    half = z * math.sqrt(events * found * (1.0 - found) + z * z / 4.0) / (events + z * z)
+    return {name: round(found, 4), f"{name}_from": round(centre - half, 4), f"{name}_to": round(centre + half, 4)}
 
 
 def states(terms: SprtTerms, elo: float, draws: float, events: int) -> list[SprtState]:

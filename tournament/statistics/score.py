@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import Any
 
 from tournament.results import GameResult
+from tournament.statistics import few_pairs
 from tournament.statistics.elo import elo_of
 from tournament.statistics.likelihood import CELL_SCORES, mean_score, profile, regularised
 from tournament.statistics.normal import student_cdf, student_quantile
@@ -92,22 +93,28 @@ def score_of_cells(counts: Sequence[int], confidence: float = CONFIDENCE, unpair
 def score_interval(counts: Sequence[int], confidence: float = CONFIDENCE) -> tuple[float, float]:
     """The interval of mean scores that the pairs do not contradict.
 
-    All s whose likelihood ratio 2 (l(best) - l(s)) is at most n log(1 + t^2 / (n - 1)), where t is Student's quantile
-    with n - 1 degrees of freedom: for normal data that is exactly the t interval, and it is the usual chi-square one
-    for many pairs. Near 0 and 1 it bends as the likelihood does. Its coverage is measured (docs/benchmarks.md).
-    Fewer than two pairs contradict nothing.
+    Few pairs (``few_pairs.MOST_PAIRS``) are judged by all that could have happened. For more, all s whose likelihood
+    ratio 2 (l(best) - l(s)) is at most n log(1 + t^2 / (n - 1)), where t is Student's quantile with n - 1 degrees of
+    freedom: for normal data that is exactly the t interval, and it is the usual chi-square one for many pairs. Near 0
+    and 1 it bends as the likelihood does. Its coverage is measured (docs/benchmarks.md). Fewer than two pairs
+    contradict nothing.
     """
     n = sum(counts)
     if n < 2:
         return 0.0, 1.0
+    if n <= few_pairs.MOST_PAIRS:
+        return few_pairs.bounds(counts, confidence)
     threshold, weights, mean = _threshold(n, confidence), regularised(counts), mean_score(counts)
     return _bound(weights, threshold, mean, 0.0), _bound(weights, threshold, mean, 1.0)
 
 
 def is_contradicted(counts: Sequence[int], score: float, confidence: float = CONFIDENCE) -> bool:
-    """Whether a mean score in (0, 1) lies outside the interval; quicker than the interval itself."""
+    """Whether a mean score in (0, 1) lies outside the interval; quicker than the interval itself for many pairs."""
     n = sum(counts)
-    return n >= 2 and -profile(regularised(counts), score) > _threshold(n, confidence)
+    if n <= few_pairs.MOST_PAIRS:
+        low, high = score_interval(counts, confidence)
+        return not low <= score <= high
+    return -profile(regularised(counts), score) > _threshold(n, confidence)
 
 
 @lru_cache(maxsize=1024)
@@ -126,6 +133,8 @@ def superiority(counts: Sequence[int]) -> float:
     n = sum(counts)
     if n < 2:
         return 0.5
+    if n <= few_pairs.MOST_PAIRS:
+        return few_pairs.superiority(counts)
     ratio = max(0.0, -2.0 * profile(regularised(counts), 0.5))
     t = math.sqrt((n - 1) * math.expm1(min(ratio / n, _LARGEST_EXPONENT)))
     return student_cdf(math.copysign(t, mean_score(counts) - 0.5), n - 1)

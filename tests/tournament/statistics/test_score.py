@@ -18,6 +18,7 @@ from tournament.statistics import (
     score_of,
     score_of_cells,
 )
+from tournament.statistics.few_pairs import MOST_PAIRS
 from tournament.statistics.normal import student_cdf, student_quantile
 
 cells = st.lists(st.integers(0, 300), min_size=5, max_size=5)
@@ -87,6 +88,25 @@ def test_what_is_contradicted_lies_outside_the_interval(counts, score):
     low, high = score_interval(counts)
     if min(abs(score - low), abs(score - high)) > 1e-6:
         assert is_contradicted(counts, score) == (not low <= score <= high)
+
+
+few = st.lists(st.integers(0, 3), min_size=5, max_size=5).filter(lambda counts: 1 < sum(counts) <= MOST_PAIRS)
+
+
+@given(few)
+@settings(max_examples=30)
+def test_few_pairs_have_an_interval_that_agrees_with_superiority_and_with_the_other_side(counts):
+    score, mirrored = score_of_cells(counts), score_of_cells(counts[::-1])
+    assert 0.0 <= score.low <= score.score <= score.high <= 1.0
+    assert (score.superiority > 0.975) == (score.low > 0.5)
+    assert (mirrored.low, mirrored.high) == pytest.approx((1 - score.high, 1 - score.low), abs=1e-6)
+    assert mirrored.superiority == pytest.approx(1 - score.superiority, abs=1e-9)
+
+
+@pytest.mark.parametrize("pairs", [3, 4])
+def test_few_pairs_all_won_are_judged_by_the_chance_of_that(pairs):
+    """Below a half nothing speaks louder against a score s than winning all: s^n, half of it, is 5 %."""
+    assert score_interval((0, 0, 0, 0, pairs)) == pytest.approx((0.1 ** (1 / pairs), 1.0), abs=3e-3)
 
 
 def test_two_hundred_to_nothing_is_bounded_below():
