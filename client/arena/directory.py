@@ -33,15 +33,16 @@ class EventDirectory:
         """A new directory for an event with these terms.
 
         Raises:
-            EventError: there is an event already.
+            EventError: there is an event already, or another process is making one.
         """
         directory = cls(path)
-        if (path / TERMS).exists():
-            raise EventError(f"{path} holds an event already: go on with `pooliad tournament resume {path}`")
         for each in (path, directory.games, directory.logs):
             each.mkdir(parents=True, exist_ok=True)
-        write_whole(path / TERMS, (json.dumps(terms, indent=2) + "\n").encode())
-        (path / TERMS).chmod(0o600)  # the seed is a secret while the event goes on
+        with directory.alone():
+            if (path / TERMS).exists():
+                raise EventError(f"{path} holds an event already: go on with `pooliad tournament resume {path}`")
+            # the seed is a secret while the event goes on
+            write_whole(path / TERMS, (json.dumps(terms, indent=2) + "\n").encode(), mode=0o600)
         return directory
 
     @classmethod
@@ -92,14 +93,18 @@ class EventDirectory:
             yield
 
 
-def write_whole(path: Path, data: bytes) -> None:
+def write_whole(path: Path, data: bytes, mode: int = 0o644) -> None:
     """Write a file that is there whole or not at all, whatever interrupts."""
     partial = path.with_name(f"{path.name}.{os.getpid()}.new")
-    with partial.open("wb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-    partial.replace(path)
+    try:
+        with partial.open("wb") as file:
+            partial.chmod(mode)
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        partial.replace(path)
+    finally:
+        partial.unlink(missing_ok=True)
     flush_folder(path.parent)
 
 

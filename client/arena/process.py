@@ -28,6 +28,8 @@ LEAVING_SECONDS = 2.0
 """How long a process gets to end when its input is closed."""
 NEWS_SECONDS = 1.0
 """How long it may take to read news that needs no answer."""
+LOOK_EVERY = 0.25
+"""Seconds between looks whether a process that is silent still runs."""
 CONFINE = Path(__file__).with_name("confine.py")
 
 
@@ -171,7 +173,7 @@ class ProcessSeat:
             if len(self._unread) > LONGEST_ANSWER:
                 self._stop(f"answered with more than {LONGEST_ANSWER} bytes and was stopped")
                 raise Lost(EndReason.FORFEIT)
-            _wait([process.stdout.fileno()], [], end)
+            _wait_for_answer(process, end)
             more = os.read(process.stdout.fileno(), LONGEST_ANSWER)
             if not more:
                 raise EOFError
@@ -217,6 +219,23 @@ def _wait(reading: list[int], writing: list[int], end: float) -> None:
     left = end - time.monotonic()
     if left <= 0 or not any(select.select(reading, writing, [], left)):
         raise TimeoutError
+
+
+def _wait_for_answer(process: subprocess.Popen[bytes], end: float) -> None:
+    """The same for the process's output; raises ``EOFError`` when it has ended without a word.
+
+    Its end is looked for by itself: a child that it left behind may hold its output open.
+    """
+    assert process.stdout is not None
+    output = [process.stdout.fileno()]
+    while process.poll() is None:
+        with contextlib.suppress(TimeoutError):
+            _wait(output, [], min(end, time.monotonic() + LOOK_EVERY))
+            return
+        if time.monotonic() >= end:
+            raise TimeoutError
+    if not select.select(output, [], [], 0.0)[0]:
+        raise EOFError
 
 
 def _status(process: subprocess.Popen[bytes]) -> str:

@@ -76,6 +76,7 @@ class RemoteRunner:
             client.PooliadError: what the server does not accept.
         """
         with self._directory.alone(), Pooliad(self._url, self._token) as server:
+            self._journal.append("begun")
             place = self._place(server)
             self._ledger = self._ledger.after(self._journal.new())
             if server.tournament(place.tournament).status in ("created", "paused"):

@@ -47,6 +47,7 @@ class Runner:
             client.AgentNotFound: an entrant's name leads nowhere.
         """
         with self._directory.alone():
+            self._journal.append("begun")
             self._look()
             while not self._ledger.over:
                 self._give_out()

@@ -87,7 +87,6 @@ def resume(
 
     _find_here()
     event = _opened(directory)
-    event.journal.append("resumed")
     _play(event, Terms.from_dict(event.terms()), _Where(executor, workers, server, token), as_json)
 
 
@@ -253,6 +252,8 @@ def _play(event: "EventDirectory", terms: "Terms", where: _Where, as_json: bool)
     except KeyboardInterrupt:
         event.journal.append("interrupted")
         fail(f"interrupted; go on with: pooliad tournament resume {event.path}", 130)
+    except OSError as error:  # a full disk: the journal cannot say so
+        fail(f"{error}; what was played stands, go on with: pooliad tournament resume {event.path}")
     _report(event, ledger, as_json)
     if ledger.aborted:
         fail("the event was aborted")

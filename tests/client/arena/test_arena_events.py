@@ -3,6 +3,7 @@
 import json
 import os
 import random
+import resource
 import subprocess
 import sys
 import time
@@ -163,6 +164,31 @@ def test_ctrl_c_leaves_an_event_that_goes_on(tmp_path, whole):
     assert "Traceback" not in words
     run(directory)
     assert files(directory) == whole[1]
+
+
+def test_a_full_disk_costs_nothing_but_time(tmp_path, whole):
+    """A file of limited size stands for a disk without room: a write fails somewhere within a line."""
+    directory = begin(tmp_path / "cup")
+    limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (300_000, 300_000))  # noqa: E731
+    process = start("resume", directory.path, "--executor", "inline", preexec_fn=limit)
+    _, words = process.communicate(timeout=300)
+    assert process.returncode == 1
+    assert "tournament resume" in words
+    assert "Traceback" not in words
+    assert max(path.stat().st_size for path in directory.games.iterdir()) == 300_000
+    run(directory)
+    assert files(directory) == whole[1]
+
+
+def test_a_second_resume_at_the_same_time_is_refused_and_leaves_no_trace(tmp_path):
+    directory = begin(tmp_path / "cup")
+    directory.journal.append("opened")
+    before = directory.journal.path.read_bytes()
+    with directory.alone():
+        second = subprocess.run(command("resume", directory.path), capture_output=True, text=True, check=False)
+    assert second.returncode == 1
+    assert "another process" in second.stderr
+    assert directory.journal.path.read_bytes() == before
 
 
 def test_only_one_runs_an_event(tmp_path):

@@ -1,16 +1,18 @@
 """Games of an event: every way an agent can fail has its own end, and a game that was broken off goes on."""
 
+import contextlib
 import dataclasses
 import itertools
 import sys
 import textwrap
+from pathlib import Path
 
 import pytest
 
 import client
 from client.agents.random_agent import RandomAgent
 from client.arena.hosting import Hosting
-from client.arena.seats import InlineSeat
+from client.arena.seats import InlineSeat, seat_of
 from client.arena.table import play
 from client.arena.tasks import play_pair
 from client.arena.terms import Terms
@@ -132,6 +134,72 @@ def test_an_agent_inside_is_told_why_its_action_was_refused(tmp_path):
     assert mine
     assert "no choice is open" in reason
     assert "refused raised RuntimeError" in found[-1][1]
+
+
+ATTACKS = """
+import os, signal, sys, time
+import client
+
+
+class Deaf(client.Agent):
+    "Wants to outlive its game."
+
+    def choose(self, view):
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            signal.signal(number, signal.SIG_IGN)
+        time.sleep(600)
+
+
+class Parent(client.Agent):
+    "Leaves in the middle of a game, as if all were well; a child keeps its output open."
+
+    def choose(self, view):
+        if os.fork() == 0:
+            time.sleep(600)
+        os._exit(0)
+
+
+class Chatterbox(client.Agent):
+    "Fills whatever it can write to."
+
+    def choose(self, view):
+        while True:
+            print("x" * 10_000)
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("Deaf", EndReason.STALL),
+        ("Parent", EndReason.CRASH),
+        ("Chatterbox", EndReason.CRASH),
+    ],
+)
+def test_an_attack_costs_the_attacker_its_game_and_leaves_nothing_behind(tmp_path, monkeypatch, name, reason):
+    monkeypatch.setattr("client.arena.process.LARGEST_FILE", 2_000_000)
+    (tmp_path / "attacks.py").write_text(ATTACKS)
+    hosting = Hosting(
+        f"attacks:{name}",
+        answer_seconds=4.0 if name == "Deaf" else 60.0,
+        environment={"PYTHONPATH": str(tmp_path), "POOLIAD_ATTACK": str(tmp_path)},
+    )
+    (task, _) = games_of(terms_of())
+    seat = seat_of(hosting, 1, tmp_path / "attack.log", lambda what: None)
+    with contextlib.closing(seat):
+        result, record = play(task, (seat, seats()[1]), None, reports_into([]))
+    assert (result.reason, result.winner) == (reason, 1)
+    assert verify_record(record.splitlines()).ok
+    assert (tmp_path / "attack.log").stat().st_size <= 2_000_000
+    assert [*processes_with(f"POOLIAD_ATTACK={tmp_path}")] == []
+
+
+def processes_with(variable):
+    """Processes that have a variable in their environment and are no zombies (Linux)."""
+    for place in Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):
+            if variable.encode() in (place / "environ").read_bytes().split(b"\0"):
+                yield place.name
 
 
 def test_a_process_plays_the_very_game_it_plays_inside():
