@@ -13,6 +13,7 @@ BENCHMARKS = {
     "chained": "10^5 random shots, each from where the last one ended, through JSON: is any start refused?",
     "event_statistics": "coverage of the intervals of scores and ratings, error rates of the sequential test, by lot",
     "value": "weights of the value function behind the luck report, fitted to games of equal players",
+    "value_bound": "how much of who wins a position any value function could explain",
     "luck": "the luck report: is the corrected score unbiased, and how much variance does it save?",
     "learning": "the learning environments: steps a second, one game at a time and many at once",
     "agents": "the shipped greedy against random: games won, called balls made, seconds a stroke",

@@ -11,6 +11,15 @@
 
 from typing import Any
 
+LONGEST_SHOWN = 200
+"""Characters of a value in a message: enough to recognise it by."""
+
+
+def shown(value: Any) -> str:
+    """A value as messages show it, what is long cut off."""
+    text = repr(value)
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."
+
 
 class FieldError(ValueError):
     """Bad input, of whatever package.
@@ -22,7 +31,7 @@ class FieldError(ValueError):
     """
 
     def __init__(self, field: str, value: Any, allowed: str) -> None:
-        super().__init__(f"{field} = {value!r}: {allowed}")
+        super().__init__(f"{field} = {shown(value)}: {allowed}")
         self.field = field
         self.value = value
         self.allowed = allowed

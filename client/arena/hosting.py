@@ -11,6 +11,7 @@ from typing import Any, Self
 
 from client.agents.registry import SHIPPED, STDIO
 from client.arena.directory import EventError
+from physics.errors import shown
 
 ANSWER_SECONDS = 60.0
 """How long an agent may be silent in an event without clocks: a program that is not dead has answered by then."""
@@ -105,7 +106,10 @@ class Hosting:
         known = {each.name for each in fields(cls)} - {"agent"}
         if not isinstance(data, Mapping) or not set(data) - {"agent"} <= known:
             _fail("hosting", data, f"a table with {', '.join(sorted(known))}")
-        return cls(**{"agent": agent, **data})
+        values = {"agent": agent, **data}
+        if not isinstance(values["agent"], str):
+            _fail("agent", values["agent"], "a text")
+        return cls(**values)
 
 
 def _check_numbers(hosting: Hosting) -> None:
@@ -135,4 +139,4 @@ def _check_mappings(hosting: Hosting) -> None:
 
 
 def _fail(name: str, value: Any, allowed: str) -> None:
-    raise EventError(f"hosting.{name} = {value!r}: {allowed}")
+    raise EventError(f"hosting.{name} = {shown(value)}: {allowed}")

@@ -10,6 +10,7 @@ from client.arena.directory import EventError
 from client.arena.hosting import Hosting
 from client.arena.table import GameTask
 from client.arena.tasks import PairTask
+from physics.errors import shown
 from tournament import Due, Spec, TournamentError, game_seeds
 
 
@@ -34,7 +35,7 @@ class Terms:
         """
         try:
             return cls.from_dict(tomllib.loads(path.read_text(encoding="utf-8")))
-        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        except (OSError, ValueError, RecursionError) as error:  # no text, no TOML, a number of thousands of digits
             raise EventError(f"{path} cannot be read: {error}") from None
         except EventError as error:
             raise EventError(f"{path}: {error}") from None
@@ -43,7 +44,7 @@ class Terms:
     def from_dict(cls, data: Any) -> Self:
         """Read a TOML document, or what ``to_dict`` wrote."""
         if not isinstance(data, dict):
-            raise EventError(f"event = {data!r}: must be a table")
+            raise EventError(f"event = {shown(data)}: must be a table")
         values = dict(data)
         tables = values.pop("hosting", {})
         try:
@@ -51,7 +52,8 @@ class Terms:
         except TournamentError as error:
             raise EventError(str(error)) from None
         if not isinstance(tables, dict) or not set(tables) <= set(spec.names):
-            raise EventError(f"hosting = {list(tables)!r}: tables named like entrants, {', '.join(spec.names)}")
+            names = list(tables) if isinstance(tables, dict) else tables
+            raise EventError(f"hosting = {shown(names)}: tables named like entrants, {', '.join(spec.names)}")
         return cls(spec, {one.name: Hosting.from_dict(one.agent, tables.get(one.name, {})) for one in spec.entrants})
 
     def to_dict(self) -> dict[str, Any]:

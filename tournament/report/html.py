@@ -121,7 +121,7 @@ def _test(data: Data) -> str:
         ("Log-likelihood ratio", f"{test['llr']:.3f} in {test['bounds'][0]:.3f} to {test['bounds'][1]:.3f}"),
         ("Pairs looked at, in their order", test["pairs"]),
     ]
-    return table(f"{first} against {second}", ("Sequential test", ""), rows, texts=2)
+    return table(f"{first} against {second}", ("Sequential test", "Value"), rows, texts=2)
 
 
 def _standings(data: Data) -> str:

@@ -1,6 +1,9 @@
 """How entrants are run: docs/running-tournaments.md, Entrants."""
 
+import dataclasses
+import datetime
 import json
+import math
 import os
 import subprocess
 import sys
@@ -12,6 +15,7 @@ from client.arena.cores import CoreLease
 from client.arena.directory import EventError
 from client.arena.hosting import Hosting, Kind
 from client.arena.terms import Terms
+from tournament import Spec
 
 EVENT = {"name": "cup", "entrants": ["random", "greedy"]}
 
@@ -65,6 +69,8 @@ def test_what_cannot_be_is_named(agent, values, named):
         ('name = "x"\nentrants = ["random", "greedy"]\n[hosting.c]', "hosting"),
         ('name = "x"\nentrants = ["random", "greedy"]\n[hosting.random]\ncores = -1', "cores"),
         ("name = ", "cannot be read"),
+        ("seed = 1" + "0" * 5000, "cannot be read"),
+        ("name = " + "[" * 5000, "cannot be read"),
         ("\x00", "cannot be read"),
     ],
 )
@@ -72,6 +78,39 @@ def test_a_bad_event_file_is_one_line_that_names_the_fault(tmp_path, text, named
     (tmp_path / "cup.toml").write_text(text)
     with pytest.raises(EventError, match=named):
         Terms.read(tmp_path / "cup.toml")
+
+
+ODD = (None, True, -1, 0, 10**400, math.inf, math.nan, "", "x" * 10**5, "\0", "\ud800", [], [[]], {}, {1: 2})
+ODD += ({"levels": "x"}, {"range": 5}, {"range": [1]}, {"elo0": "x"}, datetime.date(2026, 1, 1), b"x")
+SPEC = [each.name for each in dataclasses.fields(Spec)]
+HOSTING = [each.name for each in dataclasses.fields(Hosting)]
+
+
+@pytest.mark.parametrize("field", [*SPEC, "preset", "hosting", "unknown"])
+def test_whatever_stands_in_an_event_file_is_accepted_or_named_in_a_sentence(field):
+    for value in ODD:
+        accepted_or_named(EVENT | {field: value}, field)
+
+
+@pytest.mark.parametrize("field", [*HOSTING, "unknown"])
+def test_whatever_stands_in_a_hosting_table_is_accepted_or_named_in_a_sentence(field):
+    for value in ODD:
+        accepted_or_named(EVENT | {"hosting": {"random": {field: value}}}, field)
+
+
+def accepted_or_named(event, field):
+    words = complaint(event)
+    assert words is None or field.rstrip("s") in words or "entrant" in words
+    assert words is None or len(words) < 500
+
+
+def complaint(event):
+    """What is said against an event's terms."""
+    try:
+        Terms.from_dict(event)
+    except EventError as error:
+        return str(error)
+    return None
 
 
 def test_terms_come_back_as_they_were():
