@@ -74,7 +74,7 @@ def _cells(row: Sequence[Any], marks: Sequence[str]) -> str:
 
 
 def _figure(plot: str, caption: str) -> str:
-    return f"<figure>{plot}<figcaption>{text(caption)}</figcaption></figure>"
+    return f'<figure tabindex="0">{plot}<figcaption>{text(caption)}</figcaption></figure>'
 
 
 def _note(words: str) -> str:
