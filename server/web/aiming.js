@@ -163,10 +163,7 @@ export class Aiming {
     if (!this.view || !this.legalPlace) return; // asked before the ball was dragged to where it may not lie
     this.settled = true;
     fill(this.problem, problem);
-    if (elevation !== null && this.lowest.input.checked) {
-      this.form.shot = { ...this.form.shot, theta: elevation };
-      this.form.write();
-    }
+    if (elevation !== null && this.lowest.input.checked) this.form.raise(elevation);
     this.path = answer && answer.events ? new Trace(this.view.table, this.balls, answer.events, answer.duration) : null;
     this.stage.redraw();
     if (this.waiting) this.send();

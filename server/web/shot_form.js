@@ -74,12 +74,21 @@ export class ShotForm {
     return Math.min(Number(slider.max), Math.max(Number(slider.min), value));
   }
 
+  /** Raise the cue so far. What somebody writes into the other fields meanwhile is left alone. @param {number} theta deg */
+  raise(theta) {
+    this.shot = { ...this.shot, theta };
+    this.writeField("theta");
+  }
+
+  writeField(name) {
+    const { slider, number } = this.fields[name];
+    slider.value = String(this.shot[name]);
+    const rounded = Math.round(this.shot[name] * 1000) / 1000;
+    number.value = String(name === "phi" ? rounded % 360 : rounded);
+  }
+
   write() {
-    for (const [name, { slider, number }] of Object.entries(this.fields)) {
-      slider.value = String(this.shot[name]);
-      const rounded = Math.round(this.shot[name] * 1000) / 1000;
-      number.value = String(name === "phi" ? rounded % 360 : rounded);
-    }
+    for (const name of Object.keys(this.fields)) this.writeField(name);
     const scale = 48 / (BALL_RADIUS * 1000);
     this.dot.setAttribute("cx", String(this.shot.a * scale));
     this.dot.setAttribute("cy", String(-this.shot.b * scale));

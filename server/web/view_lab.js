@@ -152,10 +152,7 @@ export class LabView {
 
   previewed(answer, elevation, problem) {
     fill(this.problem, problem);
-    if (elevation !== null && this.lowest.checked) {
-      this.form.shot = { ...this.form.shot, theta: elevation };
-      this.form.write();
-    }
+    if (elevation !== null && this.lowest.checked) this.form.raise(elevation);
     this.answer = answer;
     this.paths = answer?.events ? new Trace(TABLE, this.balls, answer.events, answer.duration) : null;
     const fallen = answer?.events?.filter((event) => event.kind === "pocket_collision").map(describeEvent) ?? [];
