@@ -116,15 +116,18 @@ async def play(port: int, games: int, seconds: float) -> Tally:
 
 async def play_one(wire: Connection, players: tuple[Player, Player], tally: Tally) -> None:
     """One match, stroke after stroke."""
-    view: dict[str, Any] | None = None
+    view, tries = await current_view(wire, players), 0
     while not tally.is_over:
-        if view is None or view["turn"] is None:
-            view = await current_view(wire, players)
-        request, body = next_request(view, players, tally.refused)
+        request, body = next_request(view, players, tries)
         started = time.perf_counter()
         reply = await wire.send(request, body)
         tally.add(started, len(request) + len(body), reply)
-        view = json.loads(reply.body)["view"] if reply.status == 200 else None
+        if reply.status != 200:
+            tries += 1
+            continue
+        view, tries = json.loads(reply.body)["view"], 0
+        if view["turn"] is None:
+            view = await current_view(wire, players)
 
 
 async def current_view(wire: Connection, players: tuple[Player, Player]) -> dict[str, Any]:

@@ -13,6 +13,9 @@ SPOTS = [(x, y) for y in (1.8, 1.7, 1.2, 0.7, 1.45, 0.95) for x in (0.558, 0.358
 CLEAR = 0.08
 """Metres between the centres of balls that do not touch, with some to spare."""
 
+PATIENCE = 12
+"""Refused strokes after which a game is given up: the cue has room nowhere."""
+
 _keys = itertools.count()
 
 
@@ -40,9 +43,9 @@ async def begin(
     return one, two
 
 
-def next_request(view: dict[str, Any], players: tuple[Player, Player], salt: int) -> tuple[bytes, bytes]:
-    """Head and body of the mover's request."""
-    verb, action = action_of(view, salt)
+def next_request(view: dict[str, Any], players: tuple[Player, Player], tries: int) -> tuple[bytes, bytes]:
+    """Head and body of the mover's request; `tries` of them were refused (the cue had no room)."""
+    verb, action = action_of(view, tries)
     body = json.dumps(action).encode()
     headers = (
         f"Authorization: Bearer {players[view['turn']].token}\r\n"
@@ -51,8 +54,10 @@ def next_request(view: dict[str, Any], players: tuple[Player, Player], salt: int
     return Connection.request("POST", f"/v1/games/{view['game']}/{verb}", len(body), headers), body
 
 
-def action_of(view: dict[str, Any], salt: int) -> tuple[str, dict[str, Any]]:
-    """A decision where one is due, else a stroke."""
+def action_of(view: dict[str, Any], tries: int) -> tuple[str, dict[str, Any]]:
+    """A decision where one is due, else a stroke; it turns away from those that were refused."""
+    if tries > PATIENCE:
+        return "concede", {}
     if view["phase"] == "decision":
         return "decisions", {
             "decision": view["allowed"]["decisions"][0] if view["allowed"]["decisions"] else "accept_table"
@@ -63,7 +68,7 @@ def action_of(view: dict[str, Any], salt: int) -> tuple[str, dict[str, Any]]:
         cue_ball = balls[0] = next(spot for spot in SPOTS if is_free(spot, balls))
     target = min(ball for ball in balls if ball not in (0, 8)) if len(balls) > 2 else max(balls)
     (x, y), (to_x, to_y) = balls[0], balls[target]
-    phi = math.degrees(math.atan2(to_y - y, to_x - x)) + salt % 7
+    phi = math.degrees(math.atan2(to_y - y, to_x - x)) + 67.0 * tries
     breaks = view["phase"] == "break"
     shot = {"v": 8.0 if breaks else 3.0, "phi": phi, "theta": 50.0, "a": 0.0, "b": 0.0}
     return "shots", {"shot": shot, "call": None if breaks else "safety", "cue_ball": cue_ball}

@@ -1,6 +1,7 @@
 """Where the balls lie between two shots."""
 
 from collections.abc import Mapping
+from math import isfinite
 from typing import Any, Self, final
 
 import numpy as np
@@ -98,7 +99,8 @@ class TableState:
             InvalidState: as for ``from_positions``.
         """
         positions = self._positions + 0.0
-        positions[_number(ball, position)] = _point(ball, position) + 0.0
+        positions[_number(ball, position)] = _point(ball, position)
+        positions[ball] += 0.0
         gap = positions - positions[ball]
         squared = gap[:, 0] * gap[:, 0] + gap[:, 1] * gap[:, 1]
         if np.count_nonzero(squared < _LEAST_SQUARED) > 1:  # it is at distance 0 of itself
@@ -153,13 +155,17 @@ def _from_mapping(positions: Mapping[int, ArrayLike]) -> NDArray[np.float64]:
     return array
 
 
-def _number(ball: int, position: ArrayLike) -> int:
+def _number(ball: Any, position: Any) -> int:
+    """A ball's number as such; raises InvalidState for anything else."""
     if isinstance(ball, bool) or not isinstance(ball, int | np.integer) or not 0 <= ball < N_BALLS:
         raise InvalidState(f"positions[{ball!r}]", position, f"balls are numbered 0 to {N_BALLS - 1}")
     return int(ball)
 
 
-def _point(ball: int, position: ArrayLike) -> NDArray[np.float64]:
+def _point(ball: int, position: ArrayLike) -> ArrayLike:
+    """Two finite numbers; raises InvalidState for anything else."""
+    if isinstance(position, tuple | list) and len(position) == 2 and all(map(_is_finite, position)):
+        return position  # as JSON has them: what follows takes ten times as long
     try:
         point = np.asarray(position, dtype=np.float64)
     except (TypeError, ValueError):
@@ -167,6 +173,10 @@ def _point(ball: int, position: ArrayLike) -> NDArray[np.float64]:
     if point.shape != (2,) or not np.isfinite(point).all():
         raise InvalidState(f"positions[{ball}]", position, "must be two finite numbers (x, y) in metres")
     return point
+
+
+def _is_finite(value: object) -> bool:
+    return type(value) is float and isfinite(value)
 
 
 def _from_array(positions: ArrayLike) -> NDArray[np.float64]:
@@ -183,13 +193,17 @@ def _from_array(positions: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
+_FIRST, _SECOND = np.triu_indices(N_BALLS, 1)
+"""Every pair of balls once."""
+
+
 def _refuse_overlap(positions: NDArray[np.float64]) -> None:
-    gap = positions[:, None, :] - positions[None, :, :]
-    squared = gap[..., 0] * gap[..., 0] + gap[..., 1] * gap[..., 1]
-    overlapping = np.argwhere(np.triu(squared < _LEAST_SQUARED, 1))
+    x, y = (positions[_FIRST] - positions[_SECOND]).T
+    overlapping = np.flatnonzero(x * x + y * y < _LEAST_SQUARED)
     if len(overlapping):
-        first, second = overlapping[0].tolist()
-        distance = float(squared[first, second]) ** 0.5
+        pair = overlapping[0]
+        first, second = int(_FIRST[pair]), int(_SECOND[pair])
+        distance = float(x[pair] * x[pair] + y[pair] * y[pair]) ** 0.5
         raise InvalidState(
             f"positions[{second}]",
             positions[second].tolist(),

@@ -1,9 +1,10 @@
 """What endpoints are given: the context, the caller, the command, the page."""
 
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from typing import Annotated
 
 from fastapi import Depends, Header, Query, Request, Response
+from sqlalchemy import Connection
 
 from server.errors import Unauthorized
 from server.routes.describe import NUMBER, PAGE_LIMIT, PLACE, SEARCH
@@ -12,6 +13,7 @@ from server.security.tokens import bearer
 from server.services import pages
 from server.services.commands import Answer, Command
 from server.services.context import Context
+from server.services.strokes import Move
 
 
 def context_of(request: Request) -> Context:
@@ -35,20 +37,20 @@ async def _token(authorization: Annotated[str | None, Header(include_in_schema=F
 Token = Annotated[str | None, Depends(_token)]
 
 
-ACTIONS = ("/shots", "/decisions", "/concede")
-"""A player's own moves are never refused for being many: while it is the turn, the clock decides."""
-
-
 def _caller(context: Server, token: Token, request: Request) -> Caller:
+    with context.database.reading() as connection:
+        caller = _identified(context, connection, token, request)
+    context.limits.count(caller)
+    return caller
+
+
+def _identified(context: Context, connection: Connection, token: str | None, request: Request) -> Caller:
+    """The caller; whoever comes without a valid token is counted by address."""
     try:
-        with context.database.reading() as connection:
-            caller = identify(connection, token, context.settings.organiser_digest, context.time.now())
+        return identify(connection, token, context.settings.organiser_digest, context.time.now())
     except Unauthorized:
         context.limits.count_stranger(_address(request))
         raise
-    if not (request.method == "POST" and request.url.path.endswith(ACTIONS)):
-        context.limits.count(caller)
-    return caller
 
 
 def _address(request: Request) -> str:
@@ -103,27 +105,37 @@ Body = Annotated[bytes, Depends(_body)]
 ContentType = Annotated[str | None, Header(include_in_schema=False)]
 
 
-async def _command(
-    request: Request,
-    caller: Authenticated,
-    body: Body,
-    idempotency_key: Annotated[str | None, Header(include_in_schema=False)] = None,
-    if_match: Annotated[str | None, Header(include_in_schema=False)] = None,
-    content_type: ContentType = None,
-) -> Command:
-    return Command(
-        caller=caller,
-        route=request.url.path,
-        key=idempotency_key,
-        if_match=if_match,
-        content_type=content_type,
-        body=body,
-        arrived=request.state.arrived,
-    )
+Key = Annotated[str | None, Header(alias="Idempotency-Key", include_in_schema=False)]
+Version = Annotated[str | None, Header(alias="If-Match", include_in_schema=False)]
+
+
+async def _unsigned(
+    request: Request, body: Body, key: Key = None, if_match: Version = None, content_type: ContentType = None
+) -> Callable[[Caller], Command]:
+    def sent(caller: Caller) -> Command:
+        path, arrived = request.url.path, request.state.arrived
+        return Command(caller, path, key, if_match, content_type, body, arrived)
+
+    return sent
+
+
+Unsigned = Annotated[Callable[[Caller], Command], Depends(_unsigned)]
+
+
+async def _command(caller: Authenticated, sent: Unsigned) -> Command:
+    return sent(caller)
 
 
 Sent = Annotated[Command, Depends(_command)]
 """A state-changing request."""
+
+
+async def _move(context: Server, token: Token, request: Request, sent: Unsigned) -> Move:
+    return lambda connection: sent(_identified(context, connection, token, request))
+
+
+Moved = Annotated[Move, Depends(_move)]
+"""A player's move: whoever it is from is looked up by the transaction that looks at the game."""
 
 
 async def _in_hand(game_id: str, request: Request) -> AsyncIterator[None]:

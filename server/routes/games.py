@@ -16,7 +16,7 @@ from server.errors import (
     Unauthorized,
     VersionRequired,
 )
-from server.routes.dependencies import ANYBODY, Cursor, InHand, Limit, Reader, Sent, Server, respond
+from server.routes.dependencies import ANYBODY, Cursor, InHand, Limit, Moved, Reader, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import history, ledger, strokes, verdicts
 
@@ -38,9 +38,9 @@ def game(game_id: str, context: Server, reader: Reader) -> Response:
     dependencies=[InHand],
     summary="Play a stroke",
 )
-def shoot(game_id: str, context: Server, command: Sent) -> Response:
+def shoot(game_id: str, context: Server, move: Moved) -> Response:
     """The shot as played (with noise), its events, the ruling and the next view."""
-    return respond(strokes.shoot(context, game_id, command))
+    return respond(strokes.shoot(context, game_id, move))
 
 
 @router.post(
@@ -49,9 +49,9 @@ def shoot(game_id: str, context: Server, command: Sent) -> Response:
     dependencies=[InHand],
     summary="Choose after a break",
 )
-def decide(game_id: str, context: Server, command: Sent) -> Response:
+def decide(game_id: str, context: Server, move: Moved) -> Response:
     """One of the choices that the view allows."""
-    return respond(strokes.decide(context, game_id, command))
+    return respond(strokes.decide(context, game_id, move))
 
 
 @router.post(
@@ -60,9 +60,9 @@ def decide(game_id: str, context: Server, command: Sent) -> Response:
     dependencies=[InHand],
     summary="Give the game up",
 )
-def concede(game_id: str, context: Server, command: Sent) -> Response:
+def concede(game_id: str, context: Server, move: Moved) -> Response:
     """In turn. The request has no body."""
-    return respond(strokes.concede(context, game_id, command))
+    return respond(strokes.concede(context, game_id, move))
 
 
 @router.post(

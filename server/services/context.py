@@ -20,6 +20,7 @@ from server.services.limits import Limits
 from server.services.physics_pool import PhysicsPool
 from server.services.presence import Presence
 from server.services.pulse import Pulse
+from server.services.seen import SeenGames
 from server.services.time import TimeSource
 from server.services.wakeups import Wakeups
 from server.settings import Settings
@@ -36,6 +37,7 @@ class Context:
 
     Attributes:
         warm: set when the kernels are loaded; warm_up_failed: set when they could not be.
+        seen: running games that need not be read again.
         self_test: what the physics' self-test came to, once it has passed.
         aside: threads for what must not wait behind requests: signs of life, the timer, what is asked about health.
         pulse: whether the signs of life reach the database.
@@ -56,6 +58,7 @@ class Context:
     metrics: Metrics = field(default_factory=Metrics)
     aside: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(THREADS_ASIDE))
     pulse: Pulse = field(init=False)
+    seen: SeenGames = field(default_factory=SeenGames)
     limits: Limits = field(init=False)
     physics: PhysicsPool = field(init=False)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))

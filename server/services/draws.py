@@ -11,6 +11,7 @@ from referee.play.clock import nanoseconds
 from referee.record import MatchTerms
 from referee.rules import EightBall
 from referee.wire import MatchRequest, Position
+from server.store.rows import GameRow
 
 
 def columns(request: MatchRequest, match_id: str) -> dict[str, Any]:
@@ -77,7 +78,7 @@ def game_seeds(match: Row[Any], number: int) -> GameSeeds:
     return _seed(match).game(number, pairs=match.paired_racks)
 
 
-def kept_seeds(match: Row[Any], game: Row[Any]) -> GameSeeds:
+def kept_seeds(match: Row[Any], game: GameRow) -> GameSeeds:
     """The secrets of a game that has begun, as they are kept with it."""
     return GameSeeds(
         noise=seed_from_hex(game.noise_secret),

@@ -18,6 +18,7 @@ from server.services.live import RUNNING
 from server.services.matches import insert_match
 from server.services.openings import begin_or_wait
 from server.store.locks import only_one
+from server.store.rows import GameRow
 from server.store.tables import games, matches, tournament_entries, tournament_games, tournaments
 from tournament import Due, Event, Spec
 from tournament.from_record import result_of
@@ -179,7 +180,7 @@ def _entries(connection: Connection, tournament_id: str, condition: ColumnElemen
 
 def _result(connection: Connection, match_id: str, due: Due) -> dict[str, Any]:
     """The result of a match's only game, from its record."""
-    game = connection.execute(select(games).where(games.c.match_id == match_id)).one()
+    game = GameRow.of(connection.execute(select(games).where(games.c.match_id == match_id)).one())
     record = read_record(history.record_lines(connection, game))
     simulated = (game.simulated_0, game.simulated_1)
     return result_of(record, due, simulated, f"/v1/games/{game.id}/record").to_dict()

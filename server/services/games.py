@@ -8,17 +8,16 @@ import secrets
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
-from sqlalchemy import Connection, Row, bindparam, func, insert, select, update
+from sqlalchemy import Row, bindparam, insert, select, update
 
 from referee.game import EndReason, Game
 from referee.play import Charge, GrantedBudget
 from referee.record import Chain, Header, end_entry, signed_seal
-from server.errors import StaleVersion
 from server.security import keys
 from server.services import draws, notices, turn_clock
 from server.services.context import Writing
-from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of, stored
-from server.store.tables import charges, games, matches, moves
+from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of
+from server.store.tables import charges, games, matches
 
 log = logging.getLogger("pooliad.server.games")
 
@@ -77,9 +76,13 @@ class TurnEnd:
     simulated: int = 0
 
 
+class Moved(Exception):
+    """The game, or its running clock, is not any more as it was read."""
+
+
 def next_move(live: LiveGame) -> int:
     """The number that the game's next move gets: every move, and nothing else before the end, makes a new version."""
-    return int(live.row.version) - FIRST_VERSION
+    return live.row.version - FIRST_VERSION
 
 
 def advance(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: Chain) -> LiveGame:
@@ -87,7 +90,7 @@ def advance(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
 
     `chain` is that of the record's lines, the move's among them.
 
-    Raises `StaleVersion` when somebody else was first.
+    Raises `Moved` when somebody else was first.
     """
     if game.is_over:
         return _finish(writing, live, game, end, chain)
@@ -113,8 +116,10 @@ def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
     outcome = game.outcome
     assert outcome is not None
     aborted = outcome.reason is EndReason.ABORTED
-    entries, after_last_move = _count_moves(writing.connection, live.id), [0, 0]
-    if end.move is None:
+    entries, after_last_move = next_move(live), [0, 0]
+    if end.move is not None:
+        entries += 1
+    else:
         after_last_move[live.game.turn] = end.charge.charged_ns
     simulated = None if live.match.simulations is None else _simulated(live, end)
     ending = chain.add(end_entry(entries, outcome, live.seeds, after_last_move, simulated))
@@ -130,7 +135,7 @@ def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
         "head": chain.head,
     }
     live = _store(writing, live, game, end, values)
-    live = replace(live, score=score_of(writing.connection, live.match.id))
+    live = replace(live, fixture=replace(live.fixture, score=score_of(writing.connection, live.match.id)))
     notices.game_over(writing.connection, live, writing.now)
     writing.context.metrics.games_ended.labels(outcome.reason.value).inc()
     log.info("game over", extra={"fields": {"game": live.id} | outcome.to_dict()})
@@ -156,7 +161,7 @@ def _next_turn(writing: Writing, live: LiveGame, game: Game, charge: Charge) -> 
     granted = live.granted[seat] + (charge.lag_ns if stays else 0)
     clock = turn_clock.TurnClock(
         remaining=live.clocks.charged(live.game.turn, charge.charged_ns).remaining_ns(seat),
-        lag=live.lag.left_ns(granted),
+        lag=live.fixture.lag.left_ns(granted),
         present=stays or live.is_present[seat],
     )
     # a mover who stays at the table has the next view in the answer: the clock goes on at once
@@ -164,35 +169,33 @@ def _next_turn(writing: Writing, live: LiveGame, game: Game, charge: Charge) -> 
     return turn_clock.mover(live.match, game) | turn
 
 
-def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, values: dict[str, Any]) -> LiveGame:
-    """Compare-and-set on the version, and a row in the ledger of the clocks."""
+def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, turn: dict[str, Any]) -> LiveGame:
+    """Compare-and-set on all that was read and may change, and a row in the ledger of the clocks."""
     seat, charge = live.game.turn, end.charge
-    values = {
+    values: dict[str, Any] = {
         "state": game.to_dict(),
         "version": live.row.version + 1,
         f"used_{seat}": live.clocks.used_ns[seat] + charge.charged_ns,
         f"lag_{seat}": live.granted[seat] + charge.lag_ns,
         f"simulated_{seat}": _simulated(live, end)[seat],
         f"present_{seat}": live.is_present[seat] or end.move is not None,
-    } | values
-    seen = {"seen_id": live.id, "seen_version": live.row.version}
+    } | turn
+    seen = {f"seen_{name}": getattr(live.row, name) for name in _COMPARED}
     if writing.connection.execute(_IF_UNCHANGED, values | seen).rowcount != 1:
-        raise StaleVersion("the game moved on in the meantime")
+        raise Moved
     row = {"game_id": live.id, "seat": seat, "move": end.move, "measured": charge.measured_ns, "lag": charge.lag_ns}
     writing.connection.execute(insert(charges), row | {"created_at": writing.now})
-    return stored(writing.connection, live, game)
+    return replace(live, row=replace(live.row, **values), game=game)
 
 
-_IF_UNCHANGED: Final = update(games).where(
-    games.c.id == bindparam("seen_id"), games.c.version == bindparam("seen_version")
-)
+_CLOCKED: Final = ("delivered", "available_at", "clock_from", "carried")
+_COUNTED: Final = ("simulated_0", "simulated_1", "present_0", "present_1")
+_COMPARED: Final = ("id", "version", *_CLOCKED, *_COUNTED)
+"""Columns by which a game is known to be as it was read: the rest changes with its version alone."""
+_IF_UNCHANGED: Final = update(games).where(*(games.c[name] == bindparam(f"seen_{name}") for name in _COMPARED))
 
 
 def _simulated(live: LiveGame, end: TurnEnd) -> tuple[int, int]:
     """Shots simulated in the game, by seat, with what the end of this turn declares."""
     declared = (end.simulated, 0) if live.game.turn == 0 else (0, end.simulated)
     return live.row.simulated_0 + declared[0], live.row.simulated_1 + declared[1]
-
-
-def _count_moves(connection: Connection, game_id: str) -> int:
-    return connection.scalar(select(func.count()).where(moves.c.game_id == game_id)) or 0

@@ -1,9 +1,8 @@
 """Looking at games: how one stands, its strokes in pages, its record."""
 
 import json
-from typing import Any
 
-from sqlalchemy import Connection, Row, select
+from sqlalchemy import Connection, select
 
 from referee.wire import GameAnswer, ShotsPage, StrokeDetail
 from server.errors import GameUnfinished
@@ -12,6 +11,7 @@ from server.services.commands import Answer
 from server.services.context import Context
 from server.services.live import LiveGame, find
 from server.services.match_views import summary
+from server.store.rows import GameRow
 from server.store.tables import moves
 
 
@@ -52,7 +52,7 @@ def record(context: Context, game_id: str) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
-def record_lines(connection: Connection, row: Row[Any]) -> list[str]:
+def record_lines(connection: Connection, row: GameRow) -> list[str]:
     """The record of a game that is over, from its row."""
     ours = select(moves.c.line).where(moves.c.game_id == row.id).order_by(moves.c.number)
-    return [row.header, *connection.scalars(ours), row.ending, row.seal]
+    return [line for line in (row.header, *connection.scalars(ours), row.ending, row.seal) if line is not None]

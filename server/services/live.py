@@ -1,7 +1,8 @@
 """A game as the database has it: its rows, read into the referee's values and shown as messages."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Final
 
 from sqlalchemy import Connection, Row, Select, bindparam, func, select
@@ -15,11 +16,42 @@ from server.errors import Forbidden, NotFound
 from server.security.callers import Caller
 from server.services import draws
 from server.store import locks
+from server.store.rows import GameRow
 from server.store.tables import agents, games, matches, moves
 
 RUNNING: Final = "running"
 FINISHED: Final = "finished"
 ABORTED: Final = "aborted"
+
+
+@dataclass(frozen=True)
+class Fixture:
+    """What stays as it is while a game runs: its match.
+
+    Attributes:
+        match: of `matches`.
+        players: the agents' names, by seat.
+        score: of the match, by seat.
+    """
+
+    match: Row[Any]
+    players: tuple[str, str]
+    score: tuple[float, float]
+
+    @cached_property
+    def rules(self) -> EightBall:
+        """The referee on this match's table."""
+        return EightBall(Table.from_dict(self.match.table))
+
+    @cached_property
+    def noise(self) -> NoiseModel:
+        """The execution noise of the match."""
+        return NoiseModel(self.match.noise_level, self.match.noise_told)
+
+    @cached_property
+    def lag(self) -> LagAllowance:
+        """What this match gives back for the way to the server and back."""
+        return LagAllowance(self.match.lag_turn, self.match.lag_game)
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,22 +60,23 @@ class LiveGame:
 
     Attributes:
         row: of `games`.
-        match: of `matches`.
+        fixture: its match.
         game: the referee's state.
-        players: the agents' names, by seat.
-        score: of the match, by seat.
     """
 
-    row: Row[Any]
-    match: Row[Any]
+    row: GameRow
+    fixture: Fixture
     game: Game
-    players: tuple[str, str]
-    score: tuple[float, float]
 
     @property
     def id(self) -> str:
         """The game's id."""
-        return str(self.row.id)
+        return self.row.id
+
+    @property
+    def match(self) -> Row[Any]:
+        """The row of its match."""
+        return self.fixture.match
 
     @property
     def agents(self) -> tuple[str, str]:
@@ -53,12 +86,12 @@ class LiveGame:
     @property
     def is_running(self) -> bool:
         """Whether the game goes on."""
-        return bool(self.row.status == RUNNING)
+        return self.row.status == RUNNING
 
     @property
     def rules(self) -> EightBall:
         """The referee on this match's table."""
-        return EightBall(Table.from_dict(self.match.table))
+        return self.fixture.rules
 
     @property
     def seeds(self) -> GameSeeds:
@@ -66,19 +99,9 @@ class LiveGame:
         return draws.kept_seeds(self.match, self.row)
 
     @property
-    def noise(self) -> NoiseModel:
-        """The execution noise of the match."""
-        return NoiseModel(self.match.noise_level, self.match.noise_told)
-
-    @property
     def clocks(self) -> Clocks:
         """Both clocks as charged so far, the running turn not counted."""
         return Clocks(self.match.allowance, (self.row.used_0, self.row.used_1))
-
-    @property
-    def lag(self) -> LagAllowance:
-        """What this match gives back for the way to the server and back."""
-        return LagAllowance(self.match.lag_turn, self.match.lag_game)
 
     @property
     def granted(self) -> tuple[int, int]:
@@ -98,7 +121,7 @@ class LiveGame:
 
     def running_for(self, now: int) -> int:
         """Nanoseconds that the running turn's clock has run since it started, or since the server did."""
-        return max(0, now - int(self.row.clock_from)) if self.is_running else 0
+        return max(0, now - self.row.clock_from) if self.is_running else 0
 
     def charge_until(self, now: int) -> Charge:
         """What the running turn costs if it ends now."""
@@ -111,7 +134,7 @@ class LiveGame:
         A turn that was never fetched counts from the moment it was there to be fetched: whoever acts knows the view
         from elsewhere, and the wait for the fetch is not free time to think.
         """
-        start = int(self.row.clock_from if self.row.delivered else self.row.available_at)
+        start = self.row.clock_from if self.row.delivered else self.row.available_at
         return self._charge(self.row.carried + max(0, arrived - start))
 
     def is_out_of_time(self, arrived: int) -> bool:
@@ -120,7 +143,7 @@ class LiveGame:
         return self.clocks.charged(turn, self.charge_of_action(arrived).charged_ns).is_out_of_time(turn)
 
     def _charge(self, measured: int) -> Charge:
-        return self.lag.charge(measured, self.granted[self.game.turn])
+        return self.fixture.lag.charge(measured, self.granted[self.game.turn])
 
     def clock_views(self, now: int) -> tuple[ClockView, ClockView]:
         """Both clocks as they stand now."""
@@ -146,7 +169,7 @@ class LiveGame:
             match=self.match.id,
             number=self.row.number,
             games=self.match.games,
-            players=self.players,
+            players=self.fixture.players,
             rules=self.match.rules,
             table=self.match.table,
             noise=noise_view(self.match),
@@ -159,14 +182,18 @@ class LiveGame:
 
     def view(self, connection: Connection, seat: int | None, now: int) -> View:
         """The game as this seat sees it (None: a spectator)."""
+        return self.view_since(strokes_since(connection, self.id, seat), seat, now)
+
+    def view_since(self, strokes: Sequence[StrokeView], seat: int | None, now: int) -> View:
+        """The same, with the strokes that it is to show."""
         return View.of(
             self.terms(),
             self.game,
             seat=seat,
             version=self.row.version,
             clocks=self.clock_views(now),
-            score=self.score,
-            strokes_since=strokes_since(connection, self.id, seat),
+            score=self.fixture.score,
+            strokes_since=strokes,
         )
 
 
@@ -183,35 +210,28 @@ _MATCH: Final = (
 
 def find(connection: Connection, game_id: str) -> LiveGame:
     """The game with this id; raises `NotFound`."""
+    return read(connection, find_row(connection, game_id))
+
+
+def find_row(connection: Connection, game_id: str) -> GameRow:
+    """The row of the game with this id; raises `NotFound`."""
     row = connection.execute(_GAME, {"id": game_id}).one_or_none()
     if row is None:
         raise NotFound(f"there is no game {game_id}")
+    return GameRow.of(row)
+
+
+def read(connection: Connection, row: GameRow) -> LiveGame:
+    """The game whose row this is."""
     match = connection.execute(_MATCH, {"id": row.match_id}).one()
-    return LiveGame(
-        row=row,
-        match=match,
-        game=Game.from_dict(row.state),
-        players=(match.name_0, match.name_1),
-        score=score_of(connection, match.id) if row.number else (0.0, 0.0),
-    )
+    score = score_of(connection, match.id) if row.number else (0.0, 0.0)
+    return LiveGame(row, Fixture(match, (match.name_0, match.name_1), score), Game.from_dict(row.state))
 
 
 def hold(connection: Connection, game_id: str) -> LiveGame:
     """The same, to be written: nobody else writes the match until the transaction ends."""
     locks.hold_match_of(connection, game_id)
     return find(connection, game_id)
-
-
-def hold_seen(connection: Connection, seen: LiveGame) -> LiveGame:
-    """The same for a game that was read before: what cannot have changed without its version is not read again."""
-    locks.hold_match_of(connection, seen.id)
-    row = connection.execute(_GAME, {"id": seen.id}).one()
-    return replace(seen, row=row) if row.version == seen.row.version else find(connection, seen.id)
-
-
-def stored(connection: Connection, before: LiveGame, game: Game) -> LiveGame:
-    """A game whose move this transaction has stored."""
-    return replace(before, row=connection.execute(_GAME, {"id": before.id}).one(), game=game)
 
 
 def find_match(connection: Connection, match_id: str) -> Row[Any]:

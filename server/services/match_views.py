@@ -10,6 +10,7 @@ from referee.wire import ClockTerms, GameSummary, MatchView, OutcomeView, Positi
 from server.services.live import RUNNING, noise_view, player_names, score_of
 from server.services.notices import winner_of
 from server.services.time import date_time
+from server.store.rows import GameRow
 from server.store.tables import games
 
 
@@ -35,14 +36,14 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
         first_breaker=match.first_breaker,
         score=score,
         winner=winner_of(match.status, score),
-        played=tuple(GameSummary(**summary(row)) for row in played),
+        played=tuple(GameSummary(**summary(GameRow.of(row))) for row in played),
         start=None if match.start is None else Position.model_validate(match.start),
         rated=match.rated,
         created_at=date_time(match.created_at),
     )
 
 
-def summary(row: Row[Any]) -> dict[str, Any]:
+def summary(row: GameRow) -> dict[str, Any]:
     """The fields of a `GameSummary`; the noise seed is there once the game is over."""
     outcome = row.state["outcome"]
     return {

@@ -12,6 +12,7 @@ from referee.wire import GameAnswer, StreamClocks, StreamConnections, StreamResu
 from server.services.context import Context
 from server.services.live import LiveGame, find, score_of
 from server.services.match_views import summary
+from server.store.rows import GameRow
 from server.store.tables import games, heartbeats, matches, moves
 
 RESULT: Final = "result"
@@ -148,7 +149,7 @@ def _here(context: Context, connection: Connection) -> frozenset[str]:
     return here.union(*connection.scalars(select(heartbeats.c.present).where(fresh, ~heartbeats.c.stopped)))
 
 
-def _marks(here: frozenset[str], row: Row[Any], seats: tuple[str, str]) -> Marks:
+def _marks(here: frozenset[str], row: GameRow | Row[Any], seats: tuple[str, str]) -> Marks:
     """Whoever thinks about a turn it has fetched is there, and whoever polls; nobody is when the game is over."""
     thinks = row.mover if row.delivered else None
     connected = [row.mover is not None and (seat == thinks or seat in here) for seat in seats]

@@ -24,7 +24,7 @@ def game_over(connection: Connection, live: LiveGame, now: int) -> None:
             seat=seat,
             outcome=OutcomeView.of(outcome),
             won=None if outcome.winner is None else outcome.winner == seat,
-            score=live.score,
+            score=live.fixture.score,
             noise_seed=live.row.noise_seed,
             record=f"/v1/games/{live.id}/record",
             view=live.view(connection, seat, now),

@@ -4,11 +4,12 @@ The shot is simulated between two transactions; the second stores all of it or n
 game's seed and the stroke's index alone, so that a shot simulated twice is the same shot.
 """
 
+import contextlib
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from sqlalchemy import Connection, insert, select
+from sqlalchemy import Connection, insert
 
 from physics import PhysicsError
 from referee import Action, Decision, Refusal
@@ -21,26 +22,30 @@ from server.security.callers import Caller
 from server.services import games, simulations
 from server.services.commands import Answer, Command, keep, parse, recall
 from server.services.context import Context, Writing
-from server.services.live import LiveGame, find, hold_seen
-from server.store.tables import games as game_rows
+from server.services.live import LiveGame
+from server.store.locks import hold_match_of
 from server.store.tables import moves
 
 log = logging.getLogger("pooliad.server.strokes")
 
 
-def shoot(context: Context, game_id: str, command: Command) -> Answer:
+Move = Callable[[Connection], Command]
+"""A move as it came in: a command once its sender has been looked up, which may raise `Unauthorized`."""
+
+
+def shoot(context: Context, game_id: str, move: Move) -> Answer:
     """Play a stroke."""
-    return _act(context, game_id, command, lambda: _Asked.of(parse(command, ShotRequest)))
+    return _act(context, game_id, move, lambda command: _Asked.of(parse(command, ShotRequest)))
 
 
-def decide(context: Context, game_id: str, command: Command) -> Answer:
+def decide(context: Context, game_id: str, move: Move) -> Answer:
     """Make one of the choices that a break leaves."""
-    return _act(context, game_id, command, lambda: _Asked.of(parse(command, DecisionRequest)))
+    return _act(context, game_id, move, lambda command: _Asked.of(parse(command, DecisionRequest)))
 
 
-def concede(context: Context, game_id: str, command: Command) -> Answer:
+def concede(context: Context, game_id: str, move: Move) -> Answer:
     """Give the game up, in turn. The body is not looked at."""
-    return _act(context, game_id, command, lambda: _Asked(Action(decision=Decision.CONCEDE)))
+    return _act(context, game_id, move, lambda command: _Asked(Action(decision=Decision.CONCEDE)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,33 +60,50 @@ class _Asked:
         return cls(request.to_action(), request.simulated)
 
 
-def _act(context: Context, game_id: str, command: Command, read: Callable[[], _Asked]) -> Answer:
+def _act(context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked]) -> Answer:
+    """Again from the beginning as long as somebody else changes the game meanwhile: they got on with it."""
     context.pulse.require(context.time.now())
+    while True:
+        with contextlib.suppress(games.Moved):
+            return _tried(context, game_id, move, read)
+
+
+def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked]) -> Answer:
     with context.database.reading() as connection:
-        _limit_others(context, connection, game_id, command.caller)
-        live = find(connection, game_id)
+        command = move(connection)
+        live = _found(context, connection, game_id, command.caller)
         seat = live.seat_of(command.caller)
         if stored := recall(connection, command):
             return stored
         _require_turn(connection, live, seat, command)
     context.failpoint("shot-admitted")
-    asked, stroke = _played(live, read)
+    asked, stroke = _played(live, lambda: read(command))
+    simulations.require_left(live, seat, asked.simulated)
     context.failpoint("shot-simulated")
+    end = games.TurnEnd(live.charge_of_action(command.arrived), games.next_move(live), asked.simulated)
     with context.writing() as writing:
-        live = hold_seen(writing.connection, live)
-        if stored := recall(writing.connection, command):
-            return stored
-        _require_turn(writing.connection, live, seat, command)
-        simulations.require_left(live, seat, asked.simulated)
-        end = games.TurnEnd(live.charge_of_action(command.arrived), games.next_move(live), asked.simulated)
-        answer = _stored(writing, live, stroke, end)
+        hold_match_of(writing.connection, game_id)
+        after, answer = _stored(writing, live, stroke, end)
         keep(writing.connection, command, answer)
         context.failpoint("shot-kept")
     context.failpoint("shot-committed")
+    context.seen.keep(after)
     _account(context, live, command, end, stroke)
     context.wakeups.notify(live.agents)
     context.failpoint("shot-woken")
     return answer
+
+
+def _found(context: Context, connection: Connection, game_id: str, caller: Caller) -> LiveGame:
+    """The game; a request about any but the sender's own turn is counted: on that the clock decides, not a 429."""
+    try:
+        live = context.seen.find(connection, game_id)
+    except errors.NotFound:
+        context.limits.count(caller)
+        raise
+    if live.row.mover != caller.id:
+        context.limits.count(caller)
+    return live
 
 
 def _account(context: Context, live: LiveGame, command: Command, end: games.TurnEnd, stroke: Stroke) -> None:
@@ -90,12 +112,6 @@ def _account(context: Context, live: LiveGame, command: Command, end: games.Turn
     context.metrics.stroke_seconds.observe(max(0, context.time.now() - command.arrived) / SECOND_NS)
     fields = {"game": live.id, "shot": f"{live.id}/{end.move}", "seat": stroke.seat, "rules": stroke.ruling.rules}
     log.info("stroke", extra={"fields": fields})
-
-
-def _limit_others(context: Context, connection: Connection, game_id: str, caller: Caller) -> None:
-    """Count the request unless it is its sender's turn: on the own turn the clock decides, not a 429."""
-    if connection.scalar(select(game_rows.c.mover).where(game_rows.c.id == game_id)) != caller.id:
-        context.limits.count(caller)
 
 
 def _require_turn(connection: Connection, live: LiveGame, seat: int, command: Command) -> None:
@@ -112,7 +128,7 @@ def _require_turn(connection: Connection, live: LiveGame, seat: int, command: Co
             view=live.view(connection, seat, command.arrived),
         )
     if live.game.turn != seat:
-        raise errors.NotYourTurn(f"it is the turn of seat {live.game.turn}, {live.players[live.game.turn]}")
+        raise errors.NotYourTurn(f"it is the turn of seat {live.game.turn}, {live.fixture.players[live.game.turn]}")
     if live.is_out_of_time(command.arrived):
         raise errors.OutOfTime("your time had run out when the request was complete")
 
@@ -140,7 +156,7 @@ def _version(command: Command) -> int:
 def _played(live: LiveGame, read: Callable[[], _Asked]) -> tuple[_Asked, Stroke]:
     try:
         asked = read()
-        return asked, play_stroke(live.rules, live.game, asked.action, live.seeds, live.noise)
+        return asked, play_stroke(live.rules, live.game, asked.action, live.seeds, live.fixture.noise)
     except Refused as refused:
         raise errors.Refused([_fault(refusal) for refusal in refused.refusals]) from refused
     except PhysicsError as error:
@@ -158,21 +174,22 @@ def _fault(refusal: Refusal) -> Fault:
     )
 
 
-def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd) -> Answer:
-    """Write the move, the game that follows and its clocks; the answer to them."""
+def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd) -> tuple[LiveGame, Answer]:
+    """Write the move, the game that follows and its clocks: the game as it is then, and the answer."""
     number = games.next_move(live)
     detail, chain = StrokeDetail.of(stroke, number), Chain(live.row.head)
+    line = chain.add(stroke_entry(stroke, number, end.charge.charged_ns))
+    live = games.advance(writing, live, stroke.game, end, chain)
+    writing.context.failpoint("shot-advanced")
     move = {
         "game_id": live.id,
         "number": number,
         "seat": stroke.seat,
         "stroke": detail.model_dump(mode="json", exclude={"events"}),
-        "line": chain.add(stroke_entry(stroke, number, end.charge.charged_ns)),
+        "line": line,
     }
     writing.connection.execute(insert(moves), move | {"created_at": writing.now})
     writing.context.failpoint("shot-moved")
-    live = games.advance(writing, live, stroke.game, end, chain)
-    writing.context.failpoint("shot-advanced")
-    view = live.view(writing.connection, stroke.seat, writing.now)
+    view = live.view_since((detail,), stroke.seat, writing.now)  # the player's last stroke is this one
     message = StrokeAnswer(game=live.id, stroke=detail, view=view, clocks=view.clocks)
-    return Answer.of(200, message, etag=f'"{live.row.version}"')
+    return live, Answer.of(200, message, etag=f'"{live.row.version}"')

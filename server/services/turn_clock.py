@@ -42,7 +42,7 @@ def running_turn(live: LiveGame) -> TurnClock:
     seat = live.game.turn
     return TurnClock(
         remaining=live.clocks.remaining_ns(seat),
-        lag=live.lag.left_ns(live.granted[seat]),
+        lag=live.fixture.lag.left_ns(live.granted[seat]),
         carried=live.row.carried,
         present=live.is_present[seat],
     )
