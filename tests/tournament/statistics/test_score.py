@@ -105,7 +105,7 @@ def test_few_pairs_have_an_interval_that_agrees_with_superiority_and_with_the_ot
 
 @pytest.mark.parametrize(("pairs", "low"), [(3, 0.1 ** (1 / 3)), (4, 0.5)])
 def test_few_pairs_all_won_are_judged_by_the_chance_of_that(pairs, low):
-    """Below a half nothing speaks louder against s than winning all: half of s^n is 5 % at the bound, or less up to 1/2.
+    """Below a half nothing speaks louder against s than winning all; half of s^n is 5 % at the bound.
 
     From a half on, losing all speaks as loudly or louder: four pairs all won leave a half in.
     """
