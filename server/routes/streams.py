@@ -16,7 +16,8 @@ router = APIRouter(prefix="/v1", tags=["streams"])
 
 MOST_GAMES: Final = 64
 """Games one stream may carry."""
-SOME_GAMES: Final[dict[str, Any]] = {"minItems": 1, "maxItems": MOST_GAMES}
+AN_ID: Final = {"type": "string", "pattern": r"^[^\x00]*$"}
+SOME_GAMES: Final[dict[str, Any]] = {"minItems": 1, "maxItems": MOST_GAMES, "items": AN_ID}
 
 
 def _spectators(request: Request, context: Server) -> Spectators:
