@@ -37,6 +37,7 @@ NUMBER: Final[dict[str, Any]] = {"pattern": f"^[0-9]{{1,{pages.LONGEST_NUMBER}}}
 PLACE: Final[dict[str, Any]] = {"pattern": r"^(0|[0-9]{1,18}\.[ -~]{1,64})$"}
 PAGE_LIMIT: Final[dict[str, Any]] = {"pattern": "^(0{0,2}[1-9]|0?[1-9][0-9]|1[0-9]{2}|200)$"}
 SEARCH: Final[dict[str, Any]] = {"pattern": f"^{pages.SEARCH}$"}
+NO_NUL: Final[dict[str, Any]] = {"pattern": "^[^\\u0000]*$"}
 KEY: Final[dict[str, Any]] = {"type": "string", "pattern": f"^[!-~]([ -~]{{0,{LONGEST_KEY - 2}}}[!-~])?$"}
 VERSION: Final[dict[str, Any]] = {"type": "string", "pattern": '^("[0-9]{1,15}"|[0-9]{1,15})$'}
 

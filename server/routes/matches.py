@@ -7,7 +7,7 @@ from fastapi import APIRouter, Query, Response
 from referee.wire import AcceptRequest, ClientSeedRequest, MatchList, MatchRequest, MatchView
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
 from server.routes.dependencies import ANYBODY, Limit, Place, Search, Sent, Server, respond
-from server.routes.describe import OWNED, describe
+from server.routes.describe import NO_NUL, OWNED, describe
 from server.services import matches, openings
 
 router = APIRouter(prefix="/v1/matches", tags=["matches"])
@@ -34,7 +34,7 @@ def listing(
     after: Place,
     limit: Limit,
     search: Search,
-    agent: Annotated[str | None, Query(description="only this agent's")] = None,
+    agent: Annotated[str | None, Query(description="only this agent's", json_schema_extra=NO_NUL)] = None,
     status: Annotated[
         str | None,
         Query(
