@@ -8,7 +8,7 @@ from fastapi.sse import EventSourceResponse
 
 from server.errors import BadHeader, Draining, Invalid, NotFound, Unauthorized, invalid_field
 from server.routes.dependencies import A_PLACE_TO_WATCH, Server
-from server.routes.describe import EVENT_STREAM, NUMBER, describe
+from server.routes.describe import EVENT_STREAM, NO_NUL, NUMBER, describe
 from server.services import pages
 from server.services.spectators import Spectators
 
@@ -17,7 +17,7 @@ router = APIRouter(prefix="/v1", tags=["streams"])
 MOST_GAMES: Final = 64
 """Games one stream may carry."""
 AN_ID: Final = {"type": "string", "pattern": r"^[^\x00]*$"}
-SOME_GAMES: Final[dict[str, Any]] = {"minItems": 1, "maxItems": MOST_GAMES, "items": AN_ID}
+SOME_GAMES: Final[dict[str, Any]] = {"minItems": 1, "maxItems": MOST_GAMES, "items": {"type": "string"} | NO_NUL}
 
 
 def _spectators(request: Request, context: Server) -> Spectators:
