@@ -34,7 +34,7 @@ def load(name: str, seed: int | None = None) -> AgentFactory:
     """A function that makes instances of the agent called `name`.
 
     Args:
-        name: of a shipped agent, with options if it has any (`search:seconds=0.3,lookahead=off`), `module:Class`
+        name: of a shipped agent, with options if it has any (`search:seconds=0.3,safeties=off`), `module:Class`
             with the module on the import path, or `stdio:COMMAND`.
         seed: makes a shipped agent repeat its choices; other agents keep their own randomness.
 
@@ -72,7 +72,7 @@ def _allowed(title: str) -> str:
 
 
 def _options(name: str, text: str) -> dict[str, bool | int | float | str]:
-    """The options of a name: `seconds=0.3,lookahead=off` as values by option."""
+    """The options of a name: `seconds=0.3,safeties=off` as values by option."""
     pairs = [pair.partition("=") for pair in text.split(",")] if text else []
     for option, equals, value in pairs:
         if not (option and equals and value):

@@ -13,12 +13,12 @@ from client.agents.registry import titles
 from client.agents.search import SearchAgent
 from client.agents.search.breaks import best_break
 from client.agents.search.budget import Budget, Pace, allowance
-from client.agents.search.clusters import as_they_come, representatives
 from client.agents.search.options import Options
 from client.agents.search.race import race
 from client.agents.search.refine import longest_run
 from client.agents.search.shots import Tables
 from client.agents.search.sight import ROOM, Sight
+from client.agents.search.thinking import AIMS, MOST_POTS
 from client.errors import AgentNotFound
 from referee import Action, CueBallArea, Decision, EightBall, EndReason, Game, Group, Phase
 from referee.wire import ClockView, GameTerms, NoiseView, View
@@ -262,8 +262,8 @@ def test_its_title_is_a_name_that_servers_allow():
 
 
 def test_options_reach_the_agent():
-    agent = client.load("search:seconds=0.25,lookahead=off", seed=3)()
-    assert agent._options == Options(seconds=0.25, lookahead=False)
+    agent = client.load("search:seconds=0.25,ways=off", seed=3)()
+    assert agent._options == Options(seconds=0.25, ways=False)
 
 
 def test_the_race_is_a_chance_and_fewer_balls_are_better():
@@ -319,17 +319,6 @@ def one_shot(state, phi, a, b):
     return Shots(tables, np.array([0]), np.array([[2.0, phi, 0.0, a, b]]), nothing, nothing, np.zeros(1))
 
 
-def test_clusters_stand_for_their_tables():
-    chance = np.random.default_rng(2)
-    centres = np.array([[0.2, 0.3], [0.9, 0.4], [0.5, 1.8]])
-    positions = np.full((60, 16, 2), np.nan)
-    positions[:, 8] = (0.5, 0.5)
-    positions[:, 0] = np.repeat(centres, 20, axis=0) + chance.normal(0.0, 0.01, (60, 2))
-    chosen, nearest = representatives(positions, 3)
-    assert sorted(chosen // 20) == [0, 1, 2]
-    assert all(len(set(nearest[20 * kind : 20 * kind + 20])) == 1 for kind in range(3))
-
-
 def test_the_longest_run_of_directions():
     made = np.array([[0, 1, 1, 0, 1], [1, 1, 1, 1, 1], [0, 0, 0, 0, 1], [0, 0, 0, 0, 0]], bool)
     first, last = longest_run(made)
@@ -337,10 +326,22 @@ def test_the_longest_run_of_directions():
     assert last.tolist()[:3] == [2, 4, 4]
 
 
-def test_what_clustering_is_measured_against():
-    chosen, nearest = as_they_come(np.zeros((7, 16, 2)), 3)
-    assert chosen.tolist() == [0, 1, 2]
-    assert nearest.tolist() == [0, 1, 2, 0, 1, 2, 0]
+def test_a_cue_ball_in_hand_makes_no_endless_batches():
+    """However large the budget: pots from all places are tried in so many ways in all, each in so many directions."""
+    balls = {1: (0.3, 1.3), 2: (0.8, 1.7), 3: (0.7, 0.5), 4: (0.9, 0.6), 5: (0.2, 0.9), 8: (0.5, 1.2), 12: (0.9, 1.9)}
+    batches = []
+
+    class Watched(client.Simulator):
+        def simulate_batch(self, table, states, shots, threads=1):
+            batches.append(len(shots))
+            return super().simulate_batch(table, states, shots, threads)
+
+    agent = SearchAgent(seed=1, shots=10**8)
+    agent.simulator = Watched()
+    view = view_of(balls, noise=0.0, cue_ball_in_hand=CueBallArea.ANYWHERE)
+    agent.game_started(view)
+    agent.choose(view)
+    assert max(batches) <= AIMS * MOST_POTS
 
 
 def test_with_nothing_left_to_simulate_it_plays_on():
@@ -351,7 +352,7 @@ def test_with_nothing_left_to_simulate_it_plays_on():
     assert game.simulated[0] <= 3_000
 
 
-@pytest.mark.parametrize("part", ["lookahead", "clusters", "safeties", "ways"])
+@pytest.mark.parametrize("part", ["safeties", "ways"])
 def test_without_a_part_it_plays_all_the_same(part):
     match = client.play(f"search:shots={FEW},{part}=off", "random", seed=6)
     assert match.games[0].outcome.reason not in (EndReason.FORFEIT, EndReason.CONCESSION)

@@ -1,4 +1,4 @@
-"""`search`: simulates what comes of its strokes, and of the strokes after them, under the game's noise."""
+"""`search`: simulates what comes of its strokes under the game's noise, and values the tables they leave."""
 
 from client.agents.search.agent import SearchAgent
 

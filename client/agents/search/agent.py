@@ -21,7 +21,7 @@ USUAL_NOISE = 1.0
 
 
 class SearchAgent(Agent):
-    """Looks for the stroke that wins most, by simulating what comes of it and of the strokes after it.
+    """Looks for the stroke that wins most, by simulating what comes of it.
 
     Args:
         seed: repeats its draws; with `shots` among the options it repeats its choices. None draws fresh ones.

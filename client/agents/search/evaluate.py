@@ -1,7 +1,6 @@
 """How good strokes are: simulated as meant, or many times under the game's noise, ruled on, and valued."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,56 +12,13 @@ from physics import Batch, Table
 from physics.constants import THETA_MAX, V_MAX
 from physics.shot import FIELDS
 from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
-from referee.rules.verdicts import Verdicts, read_verdicts
+from referee.rules.verdicts import read_verdicts
 
 SIGMAS = np.array([SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B])
 """Standard deviations of a stroke's columns at level 1."""
 
 Simulate = Callable[[Table, Floats, Floats], Batch]
 """As `client.Simulator.simulate_batch`: table, positions (n, 16, 2), strokes (n, 5)."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Outcomes:
-    """What strokes came to, each played `copies` times; arrays are (k, copies, ...).
-
-    Attributes:
-        positions: (k, copies, 16, 2) m afterwards.
-        worth: (k, copies) to the player, by the positions' value.
-        continues, fouled, over: (k, copies) bool: the shooter goes on; a foul; the game is decided.
-        group: (k, copies) int8, the shooter's group afterwards.
-    """
-
-    positions: Floats
-    worth: Floats
-    continues: NDArray[np.bool_]
-    fouled: NDArray[np.bool_]
-    over: NDArray[np.bool_]
-    group: NDArray[np.int8]
-
-    @property
-    def copies(self) -> int:
-        """How often each stroke was played."""
-        return int(self.worth.shape[1])
-
-    def mean(self) -> Floats:
-        """(k,): what each stroke is worth."""
-        found: Floats = self.worth.mean(axis=1)
-        return found
-
-    def __getitem__(self, rows: NDArray[np.int64]) -> "Outcomes":
-        return Outcomes(*(getattr(self, name)[rows] for name in _ARRAYS))
-
-    def joined(self, other: "Outcomes") -> "Outcomes":
-        """These strokes and others, all played equally often."""
-        return Outcomes(*(np.concatenate((getattr(self, name), getattr(other, name))) for name in _ARRAYS))
-
-    def more(self, other: "Outcomes") -> "Outcomes":
-        """The same strokes, played more often."""
-        return Outcomes(*(np.concatenate((getattr(self, name), getattr(other, name)), axis=1) for name in _ARRAYS))
-
-
-_ARRAYS = ("positions", "worth", "continues", "fouled", "over", "group")
 
 
 class Evaluator:
@@ -92,12 +48,15 @@ class Evaluator:
         """The strokes as they are meant, without noise."""
         return self._run(shots.before(), shots.strokes)
 
-    def as_meant(self, shots: Shots, kitchen: bool = False) -> Outcomes:
-        """What the strokes come to without noise; (k, 1)."""
-        return self._judged(shots, self.simulated(shots), 1, kitchen)
+    def as_meant(self, shots: Shots, kitchen: bool) -> Floats:
+        """What the strokes are worth without noise, (k,)."""
+        return self._judged(shots, self.simulated(shots), 1, kitchen)[:, 0]
 
-    def noisy(self, shots: Shots, copies: int, kitchen: bool = False) -> Outcomes:
-        """What the strokes come to under noise, all under the same draws: their differences are not the draws'."""
+    def noisy(self, shots: Shots, copies: int, kitchen: bool) -> Floats:
+        """What each copy of each stroke is worth under noise, (k, copies), or (k, 1) where there is none.
+
+        All strokes are played under the same draws: their differences are not the draws'.
+        """
         copies = copies if self.noise > 0.0 else 1
         draws = self._spread * self._chance.standard_normal((copies, len(FIELDS)))
         strokes = (shots.strokes[:, None, :] + draws[None, :, :]).reshape(-1, len(FIELDS))
@@ -106,30 +65,16 @@ class Evaluator:
         batch = self._run(np.repeat(shots.before(), copies, axis=0), strokes)
         return self._judged(shots, batch, copies, kitchen)
 
-    def _judged(self, shots: Shots, batch: Batch, copies: int, kitchen: bool) -> Outcomes:
-        """The referee's and the race's opinion of a batch, `copies` rows a stroke."""
+    def _judged(self, shots: Shots, batch: Batch, copies: int, kitchen: bool) -> Floats:
+        """The worth of a batch to the player, by referee and race: (k, copies), `copies` rows of it a stroke."""
 
         def each(values: NDArray[np.int64]) -> NDArray[np.int64]:
             return np.repeat(values, copies)
 
         before, group = np.repeat(shots.before(), copies, axis=0), np.repeat(shots.group(), copies)
         verdicts = read_verdicts(self.table, before, group, each(shots.ball), each(shots.pocket), batch, kitchen)
-        worth = self.values.after(batch.positions, verdicts)
-        return _shaped(batch.positions, worth, verdicts, (len(shots), copies))
+        return self.values.after(batch.positions, verdicts).reshape(len(shots), copies)
 
     def _run(self, before: Floats, strokes: Floats) -> Batch:
         self.budget.charge(len(strokes))
         return self._simulate(self.table, before, strokes)
-
-
-def _shaped(positions: Floats, worth: Floats, verdicts: Verdicts, shape: tuple[int, int]) -> Outcomes:
-    """Rows folded into (k, copies)."""
-    over = verdicts.won | verdicts.lost | ~verdicts.played
-    return Outcomes(
-        positions.reshape(*shape, 16, 2),
-        worth.reshape(shape),
-        verdicts.continues.reshape(shape),
-        verdicts.fouled.reshape(shape),
-        over.reshape(shape),
-        verdicts.group.reshape(shape),
-    )

@@ -1,4 +1,4 @@
-"""What `search` can be told: `search:seconds=0.3,lookahead=off`."""
+"""What `search` can be told: `search:seconds=0.3,safeties=off`."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -14,15 +14,12 @@ class Options:
         shots: simulate about so many shots for each stroke instead, whatever time that takes: the same seed then makes
             the same choices. 0: as many as fit into the seconds.
         cpu: count seconds of this process's processor time, not of the wall clock: for fair measurements.
-        lookahead: play the tables out that a stroke leaves. clusters: one table for many like it, not drawn blindly.
         safeties: consider everything beside straight pots. ways: play a pot in many ways, not in two.
     """
 
     seconds: float = 1.0
     shots: int = 0
     cpu: bool = False
-    lookahead: bool = True
-    clusters: bool = True
     safeties: bool = True
     ways: bool = True
 
@@ -40,7 +37,7 @@ class Options:
         return cls(**given)
 
     def __post_init__(self) -> None:
-        for name in ("cpu", "lookahead", "clusters", "safeties", "ways"):
+        for name in ("cpu", "safeties", "ways"):
             if not isinstance(getattr(self, name), bool):
                 raise ValueError(f"{name} = {getattr(self, name)!r}: must be on or off")
         if not _is_number(self.seconds) or not LEAST_SECONDS <= self.seconds <= MOST_SECONDS:

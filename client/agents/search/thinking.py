@@ -1,12 +1,11 @@
-"""One turn: gather strokes, judge them ever more carefully, look ahead from the best, until the budget is spent."""
+"""One turn: gather strokes, judge them ever more carefully, fewer and fewer, until the budget is spent."""
 
 import contextlib
 from dataclasses import dataclass
 
 import numpy as np
 
-from client.agents.search.evaluate import Evaluator, Outcomes
-from client.agents.search.lookahead import COST, correction
+from client.agents.search.evaluate import Evaluator
 from client.agents.search.options import Options
 from client.agents.search.placement import best_places, places
 from client.agents.search.pots import in_all_ways
@@ -23,8 +22,12 @@ SCREENING = 6
 """Noisy copies of every stroke."""
 NARROWING = ((0.25, 10), (0.3, 24), (0.4, 48))
 """Then so large a share of them is kept, and played so many times more; and again."""
-POT_SHARE = 0.35
-"""Of the budget, for straight pots before any looking ahead."""
+POT_SHARE = 0.8
+"""Of the budget, what straight pots may cost if all of them fall."""
+MOST_WAYS, MOST_POTS = 1500, 15_000
+"""However large the budget: ways to play one pot; ways to play all, of which a cue ball in hand has very many."""
+MOST_COPIES = 2000
+"""Of a finalist in a round, however large the budget."""
 FULL = 8000
 """Shots in the budget from which all those copies are played; below it fewer."""
 FINALISTS = 8
@@ -48,33 +51,27 @@ class Thought:
     simulated: int
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Finalists:
-    """The strokes that are left, and what is known of them."""
+    """Strokes that are left, and what each copy of each was worth under noise, (k, copies)."""
 
     shots: Shots
-    outcomes: Outcomes
-    added: Floats
-    """Sum of corrections by looking ahead, each times how many clusters it rests on."""
-    looked: Floats
-    """Sum of those numbers of clusters."""
+    worths: Floats
 
     @property
     def worth(self) -> Floats:
-        """What each is worth, as far as known."""
-        found: Floats = self.outcomes.mean() + np.divide(
-            self.added, self.looked, out=np.zeros_like(self.added), where=self.looked > 0.0
-        )
+        """(k,): what each is worth, as far as known."""
+        found: Floats = self.worths.mean(axis=1)
         return found
 
+    def best(self, most: int) -> "Finalists":
+        """The best of them, the best first."""
+        rows = np.argsort(-self.worth, kind="stable")[:most]
+        return Finalists(self.shots[rows], self.worths[rows])
+
     def joined(self, other: "Finalists") -> "Finalists":
-        """These and others; all of them were played equally often."""
-        return Finalists(
-            self.shots.joined(other.shots),
-            self.outcomes.joined(other.outcomes),
-            np.concatenate((self.added, other.added)),
-            np.concatenate((self.looked, other.looked)),
-        )
+        """These and others, all of them played equally often."""
+        return Finalists(self.shots.joined(other.shots), np.concatenate((self.worths, other.worths)))
 
 
 class Turn:
@@ -95,13 +92,13 @@ class Turn:
             found = None
         if found is None:
             return self._reckoned(tables)
-        if self._options.lookahead:
-            with contextlib.suppress(BudgetSpent):
-                self._look_ahead(found)
-        for best in np.argsort(-found.worth, kind="stable").tolist():
-            action = self._action(found.shots, best)
+        with contextlib.suppress(BudgetSpent):
+            found = self._told_apart(found)
+        found = found.best(FINALISTS)
+        for row in range(len(found.shots)):
+            action = self._action(found.shots, row)
             if not self._rules.check(self._game, action):
-                return Thought(action, float(found.worth[best]), self._evaluator.budget.simulated)
+                return Thought(action, float(found.worth[row]), self._evaluator.budget.simulated)
         return self._anything(tables)
 
     def _found(self, tables: Tables) -> Finalists | None:
@@ -134,7 +131,8 @@ class Turn:
         pots = int(np.clip(budget.total / 2500, 3, 10)) if len(tables) == 1 else 2
         listed = sight.pots(tables, pots)
         there = max(1, int((listed.chance > 0.0).sum()))
-        ways = int(np.clip(POT_SHARE * budget.total / (AIMS + SCREENING) / there, 4, 100)) if self._options.ways else 2
+        affordable = min(POT_SHARE * budget.total / (AIMS + SCREENING), MOST_POTS)
+        ways = int(np.clip(affordable / there, 4, MOST_WAYS)) if self._options.ways else 2
         shots = sight.raised(in_all_ways(tables, listed, ways))
         return self._narrowed(centred(self._evaluator, shots, AIMS)) if len(shots) else None
 
@@ -146,7 +144,7 @@ class Turn:
         shots = sweep(self._evaluator, tables, each)
         if not len(shots):
             return None
-        plain = self._evaluator.as_meant(shots, self._kitchen).mean()
+        plain = self._evaluator.as_meant(shots, self._kitchen)
         most = int(np.clip(0.15 * budget.total / SCREENING, 24, 400))
         return self._narrowed(shots[np.argsort(-plain, kind="stable")[:most]])
 
@@ -154,36 +152,29 @@ class Turn:
         """The best of the strokes, judged in rounds: fewer and fewer, more and more often."""
         if not len(shots):
             return None
-        outcomes = self._evaluator.noisy(shots, SCREENING, self._kitchen)
+        found = Finalists(shots, self._evaluator.noisy(shots, SCREENING, self._kitchen))
+        fewer = np.clip(self._evaluator.budget.total / FULL, 0.2, 1.0)
         for share, copies in NARROWING:
-            keep = max(FINALISTS, int(share * len(shots)))
-            order = np.argsort(-outcomes.mean(), kind="stable")[:keep]
-            shots, outcomes = shots[order], outcomes[order]
+            found = found.best(max(FINALISTS, int(share * len(found.shots))))
             if self._evaluator.noise > 0.0:
-                copies = max(2, round(copies * np.clip(self._evaluator.budget.total / FULL, 0.2, 1.0)))
-                outcomes = outcomes.more(self._evaluator.noisy(shots, copies, self._kitchen))
-        order = np.argsort(-outcomes.mean(), kind="stable")[:FINALISTS]
-        nothing = np.zeros(len(order))
-        return Finalists(shots[order], outcomes[order], nothing, nothing.copy())
+                found = self._again(found, max(2, round(copies * fewer)))
+        return found.best(FINALISTS)
 
-    def _look_ahead(self, found: Finalists) -> None:
-        """Correct all finalists by looking ahead, and then the best of them, until the budget is spent."""
-        budget = self._evaluator.budget
-        clusters, keep = 3, FINALISTS
-        while len(found.shots) > 1:
-            affordable = (1.0 - budget.spent) * budget.total / COST
-            rows = np.argsort(-found.worth, kind="stable")[:keep]
-            clusters = min(clusters, int(affordable / len(rows)))
-            if clusters < 1:
-                return
-            outcomes = found.outcomes[rows]
-            if found.looked[rows].any() and self._evaluator.noise > 0.0:
-                outcomes = self._evaluator.noisy(found.shots[rows], 24, self._kitchen)
-            found.added[rows] += clusters * correction(self._evaluator, outcomes, clusters, self._options.clusters)
-            found.looked[rows] += clusters
-            if self._evaluator.noise == 0.0:
-                return
-            clusters, keep = min(2 * clusters, 16), max(2, keep // 2)
+    def _told_apart(self, found: Finalists) -> Finalists:
+        """The best of the finalists, played more often, fewer and fewer of them, until the budget is spent."""
+        budget, keep = self._evaluator.budget, len(found.shots)
+        while keep > 1 and self._evaluator.noise > 0.0:
+            affordable = int((1.0 - budget.spent) * budget.total / (keep * keep.bit_length()))
+            if affordable < SCREENING:
+                break
+            found = self._again(found.best(keep), min(affordable, MOST_COPIES))
+            keep //= 2
+        return found
+
+    def _again(self, found: Finalists, copies: int) -> Finalists:
+        """The same strokes, each played so many times more."""
+        more = self._evaluator.noisy(found.shots, copies, self._kitchen)
+        return Finalists(found.shots, np.concatenate((found.worths, more), axis=1))
 
     def _reckoned(self, tables: Tables) -> Thought:
         """The likeliest straight pot by geometry alone, and if there is none, anything."""
