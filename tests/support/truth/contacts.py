@@ -17,7 +17,10 @@ MIN_CLOSING = mpf("1e-14")
 """Two touching balls that close with less than this acceleration (m/s^2) do not press on each other."""
 
 PARTING_SLACK = mpf("1e-12")
-"""A pair that opens slower than it should by less (m/s) is left alone: a chain of parted balls gets there by halves."""
+"""A pair that opens slower than it should, or closes, by less (m/s) is left: a chain of balls gets there by halves."""
+
+PARTING_SHARE = mpf("1.0625")
+"""Of A tau / 2, what a pressed pair is given."""
 
 Pair = tuple[Ball, Ball]
 
@@ -184,11 +187,11 @@ def part_pressed(cluster: Cluster) -> bool:
 def missing_speed(world: World, pair: Pair) -> mpf:
     """By how much a pair should open faster so as not to meet again within tau, nor now."""
     closing, opening = closing_acceleration(world, pair), -approach(pair)
-    wanted = max(closing * world.rest_time / 2, 2 * world.v_creep)
+    wanted = max(PARTING_SHARE * closing * world.rest_time / 2, 2 * world.v_creep)
     meets_again = closing > MIN_CLOSING and opening < closing * world.rest_time / 2
     if meets_again and opening < wanted - PARTING_SLACK:
         return wanted - opening
-    return -opening if -opening > world.v_creep else mpf(0)
+    return -opening if -opening > PARTING_SLACK else mpf(0)
 
 
 def total_energy(cluster: Cluster) -> mpf:
