@@ -128,7 +128,7 @@ def recall(connection: Connection, command: Command) -> Answer | None:
     Raises `BadHeader` without a usable Idempotency-Key and `KeyReused` when the key came with another body.
     """
     row = connection.execute(
-        _STORED, {"caller": command.caller.id, "route": command.route, "key": _key(command)}
+        _STORED, {"caller": command.caller.id, "route": command.route, "key": usable_key(command)}
     ).one_or_none()
     if row is None:
         return None
@@ -159,7 +159,7 @@ def once(connection: Connection, command: Command, act: Callable[[], Answer]) ->
 
     `connection` is in the transaction that `act` writes in.
     """
-    only_one(connection, f"{command.caller.id} {command.route} {_key(command)}")
+    only_one(connection, f"{command.caller.id} {command.route} {usable_key(command)}")
     if stored := recall(connection, command):
         return stored
     answer = act()
@@ -167,7 +167,8 @@ def once(connection: Connection, command: Command, act: Callable[[], Answer]) ->
     return answer
 
 
-def _key(command: Command) -> str:
+def usable_key(command: Command) -> str:
+    """The Idempotency-Key; raises `BadHeader` for none and for one that is not usable."""
     key = command.key
     if key is None or not 1 <= len(key) <= LONGEST_KEY or not key.isascii() or not key.isprintable():
         raise BadHeader(

@@ -4,7 +4,7 @@ from sqlalchemy import Connection, true, update
 
 from server.errors import BudgetSpent, GameFinished
 from server.security.callers import Caller
-from server.services.commands import Answer, Command, once
+from server.services.commands import Answer, Command, once, usable_key
 from server.services.context import Context
 from server.services.live import LiveGame, hold
 from server.store.tables import games
@@ -16,9 +16,11 @@ COUNTED = Answer(200, b"")
 def count(context: Context, command: Command, game_id: str | None, shots: int) -> None:
     """Count shots about to be simulated for one of the game's players, once however often the request comes.
 
-    Without a game there is nothing to count. Raises `BadHeader` and `KeyReused` as every command does, `NotFound`,
-    `Forbidden`, `GameFinished`, and `BudgetSpent` when fewer are left; nothing is counted then.
+    Without a game there is nothing to count, and no key is needed. Raises `BadHeader` and `KeyReused` as every command
+    does, `NotFound`, `Forbidden`, `GameFinished`, and `BudgetSpent` when fewer are left; nothing is counted then.
     """
+    if command.key is not None:
+        usable_key(command)
     if game_id is not None:
         with context.writing() as writing:
             once(writing.connection, command, lambda: _count(writing.connection, command.caller, game_id, shots))
