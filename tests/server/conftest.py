@@ -198,7 +198,9 @@ def scripted(view: dict[str, Any], chance: random.Random) -> dict[str, Any]:
     target = chance.choice(view["callable_balls"] or [ball for ball in map(int, balls) if ball])
     (x, y), (to_x, to_y) = balls["0"], balls[str(target)]
     phi = math.degrees(math.atan2(to_y - y, to_x - x)) + chance.choice((1, 1, 1, 90)) * chance.uniform(-2, 2)
-    call = {"ball": target, "pocket": chance.randrange(6)} if allowed["call_required"] else None
+    call: dict[str, Any] | str | None = None
+    if allowed["call_required"]:  # nothing may be called on an open table with the 8 alone
+        call = {"ball": target, "pocket": chance.randrange(6)} if view["callable_balls"] else "safety"
     v, theta = 9.0 if call is None else chance.uniform(1, 6), chance.uniform(20, 65)
     shot = {"v": v, "phi": phi, "theta": theta, "a": 0.0, "b": 0.0}
     return {"shot": shot, "call": call, "cue_ball": cue_ball}

@@ -63,7 +63,7 @@ def new_game(context, *names):
 def concede(context, game, mover):
     """The mover's action, and the time that it leaves the mover."""
     command = Command(Caller(mover, "t"), "/concede", "c", '"1"', None, b"", context.time.now())
-    answer = json.loads(strokes.concede(context, game, command).body)
+    answer = json.loads(strokes.concede(context, game, lambda _: command).body)
     return answer["clocks"][answer["stroke"]["seat"]]["seconds_left"]
 
 

@@ -88,4 +88,4 @@ class Seats:
     def concede(self) -> dict[str, Any]:
         """The breaker gives up, which ends the turn; the answer."""
         command = self.stage.command(self.mover, key="c", version=1)
-        return dict(json.loads(strokes.concede(self.stage.context, self.id, command).body))
+        return dict(json.loads(strokes.concede(self.stage.context, self.id, lambda _: command).body))
