@@ -37,7 +37,14 @@ from physics.kernels.resolve.ball_ball import approach, normal
 from physics.kernels.resolve.cloth import begin, classify
 from physics.kernels.resolve.cushion import hold, rebound, stop
 from physics.kernels.resolve.impulses import push_alone, push_pairs, settle_slow_pairs
-from physics.kernels.resolve.resting import STOP_BELOW, energy, part_pressed_pairs, returns_at_once, scale_down
+from physics.kernels.resolve.resting import (
+    STOP_BELOW,
+    energy,
+    lay_still,
+    part_pressed_pairs,
+    returns_at_once,
+    scale_down,
+)
 from physics.kernels.resolve.touching import (
     NO_CUSHION,
     bring,
@@ -198,6 +205,9 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
     if scale_down(p, w, members, allowed):
         quiet = members
         restate(p, w, k, members)
+    stilled = lay_still(p, w, members)
+    restate(p, w, k, stilled)
+    quiet |= stilled
     free_from_cushions(w, k, members)
     rest = quiet
     while rest != 0:

@@ -22,6 +22,9 @@ PARTING_SLACK = mpf("1e-12")
 PARTING_SHARE = mpf("1.0625")
 """Of A tau / 2, what a pressed pair is given."""
 
+STILL = mpf("1e-11")
+"""m/s. A ball that the rule leaves with no more energy than that of this speed lies still."""
+
 Pair = tuple[Ball, Ball]
 
 
@@ -210,6 +213,15 @@ def resolve(cluster: Cluster) -> None:
             break
         collide(cluster, cushions_only=True)
     limit_energy(cluster)
+    lay_still(cluster)
+
+
+def lay_still(cluster: Cluster) -> None:
+    """What hardly moves stops."""
+    for ball in cluster.balls:
+        if energy(cluster.world, ball) <= STILL**2 / 2:
+            ball.velocity, ball.w_xy, ball.w_z = mpc(0), mpc(0), mpf(0)
+    reclassify(cluster)
 
 
 def limit_from_now(cluster: Cluster) -> None:
