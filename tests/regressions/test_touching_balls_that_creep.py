@@ -2,8 +2,8 @@
 
 Rows on extreme cloths sank 1e-10 m into each other: what still closed after step 3 of the contact rule, by up to
 1e-9 m/s, was left. And a lattice never settled: parting a ball that creeps turned its friction, the pair was pressed
-harder than before, and each of 10,000 rounds came 1e-10 m/s nearer (docs/physics.md, eq. 30). And a ball in a corner, at 5e-12 m/s, was
-pushed anew by its neighbour every 2e-13 s, whenever it began to roll: a million events in 60 ms.
+harder than before, and each of 10,000 rounds came 1e-10 m/s nearer (docs/physics.md, eq. 30). And a ball in a corner,
+at 5e-12 m/s, was pushed anew by its neighbour every 2e-13 s, whenever it began to roll: a million events in 60 ms.
 """
 
 import itertools

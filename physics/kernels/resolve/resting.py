@@ -37,9 +37,9 @@ STOP_BELOW = 0.5
 
 
 STILL = 1e-11
-"""m/s. A ball that the contact rule leaves slower, spin and all, lies still: 0.3 mm a year. Without it such a ball, pushed
-anew by its neighbour whenever it began to roll, made a million events in 60 ms; and a touching neighbour is looked at
-again before it is 1e-12 m deeper."""
+"""m/s. A ball that the contact rule leaves slower, spin and all, lies still: 0.3 mm a year. Without it such a ball,
+pushed anew by its neighbour whenever it began to roll, made a million events in 60 ms; and a touching neighbour is
+looked at again before it is 1e-12 m deeper."""
 
 
 @small_kernel
