@@ -1,4 +1,4 @@
-"""What each constant of the contact rule changes when it is ten times larger or smaller.
+"""What each constant of the contact rule changes, most of them when ten times larger or smaller.
 
 The same shots are simulated by engines that differ in one constant. The row "one ulp of v" moves nothing but the last
 bit of the cue's speed: changes no larger than those are not the constant's doing.
@@ -16,9 +16,20 @@ from benchmarks.command import main
 from benchmarks.recording import Row, Tables
 from benchmarks.scenes import Floats
 
-NAMES = ("TOUCH", "SLOW_APPROACH", "SOFT_CUSHION", "REST_TIME", "PRESSING")
-FACTORS = (0.1, 10.0)
-MODULE = "physics.kernels.tolerances"
+TENFOLD = (0.1, 10.0)
+KERNELS, PARAMETERS = "physics.kernels.tolerances", "physics.parameters"
+VARIED = (
+    (KERNELS, "TOUCH", TENFOLD),
+    (KERNELS, "SLOW_APPROACH", TENFOLD),
+    (KERNELS, "SOFT_CUSHION", TENFOLD),
+    (PARAMETERS, "REST_TIME", TENFOLD),
+    (KERNELS, "PRESSING", TENFOLD),
+    (KERNELS, "PARTING_SLACK", TENFOLD),
+    (KERNELS, "PARTING_SHARE", (16.0 / 17.0, 2.0)),
+    (KERNELS, "STOP_BELOW", (0.2, 1.8)),
+    (KERNELS, "STILL", TENFOLD),
+)
+"""Where each constant is, its name, and what it is multiplied by."""
 CLASSES = ("ordinary", "touching break", "frozen cluster", "cushions and corners", "straight lines")
 SEED = 77
 
@@ -38,19 +49,20 @@ def measure(full: bool) -> Tables:
 
 def varied(usual: dict[str, Outcome], shots: int, flights: int) -> Iterator[Row]:
     """Rows of the constants, each in its own process."""
-    for name in NAMES:
-        for factor in FACTORS:
+    for module, name, factors in VARIED:
+        for factor in factors:
             found = variants.run(
                 "benchmarks.constants:scale", "benchmarks.constants:outcomes", name, factor, shots, flights
             )
-            value = getattr(importlib.import_module(MODULE), name) * factor
+            value = getattr(importlib.import_module(module), name) * factor
             print(f"{name} = {value:g}", flush=True)
             yield row(name, value, usual, found)
 
 
 def scale(name: str, factor: float, *_: object) -> None:
     """In a new process: multiply a constant before the kernels load."""
-    variants.replace(MODULE, name, getattr(importlib.import_module(MODULE), name) * factor)
+    module = next(module for module, varied, _ in VARIED if varied == name)
+    variants.replace(module, name, getattr(importlib.import_module(module), name) * factor)
 
 
 def outcomes(name: str | None, _factor: float, shots: int, flights: int) -> dict[str, Outcome]:

@@ -23,6 +23,23 @@ PRESSING = 1e-14
 """m/s^2. Touching balls whose relative acceleration presses them together no harder are not pressed: over the 10 s of
 a shot that is 5e-13 m."""
 
+PARTING_SLACK = 1e-12
+"""m/s. After step 3 of the contact rule a pair may open by so much less than it should, or close by so much. Smaller,
+and the rounding of velocities (1e-15 m/s) asks for another round for ever; at SLOW_APPROACH, balls of a row sank
+1e-10 m into each other."""
+
+PARTING_SHARE = 1.0625
+"""A pair is given this much of the speed that keeps it apart for the rest time. Where parting a ball that creeps turns
+its friction, so that the pair is pressed harder than before, rounds of 1 came nearer by 1e-10 m/s for ever."""
+
+STOP_BELOW = 0.5
+"""A cluster whose energy would have to fall below this share of itself stops instead."""
+
+STILL = 1e-11
+"""m/s. A ball that the contact rule leaves with no more energy than this speed has lies still: 0.3 mm a year. Without
+it such a ball, pushed anew by its neighbour whenever it began to roll, made a million events in 60 ms; and a touching
+neighbour is looked at again before it is 1e-12 m deeper."""
+
 EVENT_LIMIT = 1_000_000
 """Events after which a shot ends with ``Status.EVENT_LIMIT``; a break has about a hundred."""
 

@@ -37,14 +37,7 @@ from physics.kernels.resolve.ball_ball import approach, normal
 from physics.kernels.resolve.cloth import begin, classify
 from physics.kernels.resolve.cushion import hold, rebound, stop
 from physics.kernels.resolve.impulses import push_alone, push_pairs, settle_slow_pairs
-from physics.kernels.resolve.resting import (
-    STOP_BELOW,
-    energy,
-    lay_still,
-    part_pressed_pairs,
-    returns_at_once,
-    scale_down,
-)
+from physics.kernels.resolve.resting import energy, lay_still, part_pressed_pairs, returns_at_once, scale_down
 from physics.kernels.resolve.touching import (
     NO_CUSHION,
     bring,
@@ -54,7 +47,7 @@ from physics.kernels.resolve.touching import (
     touched_cushion,
     towards_cushion,
 )
-from physics.kernels.tolerances import ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION
+from physics.kernels.tolerances import ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION, STOP_BELOW
 
 FAILED = -1
 """Returned instead of a bit set when ROUND_LIMIT was reached."""

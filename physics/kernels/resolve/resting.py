@@ -22,24 +22,7 @@ from physics.kernels.layout import (
 from physics.kernels.resolve.ball_ball import approach
 from physics.kernels.resolve.impulses import linked_to, push_group
 from physics.kernels.resolve.touching import towards_cushion
-from physics.kernels.tolerances import PRESSING, SLOW_APPROACH
-
-PARTING_SLACK = 1e-3 * SLOW_APPROACH
-"""m/s. A pair that opens slower than it should, or closes, by less than this is left: the rounding of its velocities
-(1e-15 m/s) would ask for another round for ever. Left at SLOW_APPROACH, balls of a row sank 1e-10 m into each other."""
-
-PARTING_SHARE = 1.0625
-"""A pair is given this much of the speed that keeps it apart for the rest time. Where parting a ball that creeps turns
-its friction, so that the pair is pressed harder than before, rounds of 1 came nearer by 1e-10 m/s for ever."""
-
-STOP_BELOW = 0.5
-"""A cluster whose energy would have to fall below this share of itself stops instead."""
-
-
-STILL = 1e-11
-"""m/s. A ball that the contact rule leaves slower, spin and all, lies still: 0.3 mm a year. Without it such a ball,
-pushed anew by its neighbour whenever it began to roll, made a million events in 60 ms; and a touching neighbour is
-looked at again before it is 1e-12 m deeper."""
+from physics.kernels.tolerances import PARTING_SHARE, PARTING_SLACK, PRESSING, SLOW_APPROACH, STILL, STOP_BELOW
 
 
 @small_kernel

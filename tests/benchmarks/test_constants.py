@@ -1,0 +1,23 @@
+"""The constants that `benchmarks.constants` varies are there, where it looks for them (docs/physics.md, "Contacts")."""
+
+import importlib
+
+import pytest
+
+from benchmarks import constants
+from physics.kernels import tolerances
+
+NOT_OF_THE_RULE = {"DEEPER", "EVENT_LIMIT", "STEP_LIMIT", "ROUND_LIMIT", "SOLVER_STEPS", "ROOT_RESIDUAL"}
+"""Limits that no shot reaches, and what belongs to the solver."""
+
+
+@pytest.mark.parametrize(("module", "name", "factors"), constants.VARIED)
+def test_it_can_be_varied(module, name, factors):
+    value = getattr(importlib.import_module(module), name)
+    assert value > 0.0
+    assert len({value, *(value * factor for factor in factors)}) == 3
+
+
+def test_every_constant_of_the_rule_is_varied():
+    ours = {name for name in vars(tolerances) if name.isupper()}
+    assert ours - NOT_OF_THE_RULE == {name for module, name, _ in constants.VARIED if module == constants.KERNELS}
