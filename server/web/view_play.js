@@ -144,13 +144,12 @@ export class PlayView {
     this.game.watch(game);
   }
 
-  /** Ask for turns until the match is over. A turn is asked for once: it waits until it is answered. */
+  /** Ask for turns until this match is over. A turn is asked for once: it waits until it is answered. */
   async poll() {
-    while (!this.closed && !this.turn) {
+    while (!this.closed && this.match && !this.turn) {
       try {
         const message = await call("GET", "/v1/turns?wait=25", { signal: this.polls.signal });
         if (message) this.told(message);
-        if (message?.type === "match_over") return;
       } catch (error) {
         if (this.closed) return;
         if (error instanceof ProblemError && error.status === 401) return this.leave();

@@ -201,6 +201,19 @@ def test_a_challenge_by_name_is_accepted_and_conceded(human):
     human.page.locator(".result", has_text="wins: concession").wait_for(timeout=PATIENCE)
 
 
+def test_news_of_an_earlier_match_does_not_end_the_turns_of_this_one(human):
+    """Seen: after `match_over` of a match left long ago the page asked for no more turns, and lost by not showing up.
+
+    News is delivered once, to whoever polls next: what ended while nobody asked comes before the first turn.
+    """
+    earlier, _ = seated(human, first_breaker=1)
+    assert human.server.send("POST", f"/v1/matches/{earlier.id}/abort").json()["status"] == "aborted"
+    match, _ = seated(human, first_breaker=0)
+    human.page.reload()
+    human.take_turn(human.view(match.game))
+    human.page.locator("ol.strokes li").first.wait_for()
+
+
 def test_the_cue_ball_is_dragged_and_the_cue_aimed_by_mouse_and_keys(human):
     """The break by pointer: an illegal place is shown as one; a drag beside the ball aims; arrows turn and speed up."""
     match, _ = seated(human, first_breaker=0)
