@@ -56,11 +56,12 @@ class ProcessSeat:
         self._process: subprocess.Popen[bytes] | None = None
         self._unread = b""
         self._budget = SimulationBudget()
+        self._simulated = 0
         self._asked = False
 
     def begin(self, budget: SimulationBudget) -> None:
         """Have it run, so that it can load while the other seat does; one that failed is started again."""
-        self._budget, self._asked = budget, False
+        self._budget, self._simulated, self._asked = budget, 0, False
         self._require_process()
 
     def ask(self, view: View, seconds: float | None) -> Action:
@@ -116,7 +117,7 @@ class ProcessSeat:
     def _require_process(self) -> subprocess.Popen[bytes]:
         if self._process is None:
             self._process = self._started()
-            self._unread = b""
+            self._unread, self._simulated = b"", 0
         return self._process
 
     def _started(self) -> subprocess.Popen[bytes]:
@@ -191,10 +192,15 @@ class ProcessSeat:
         return Action.from_dict(answer)
 
     def _count(self, simulated: Any) -> None:
-        """Charge the budget with what it says it simulated; a count can only grow."""
-        if isinstance(simulated, bool) or not isinstance(simulated, int) or simulated < self._budget.used:
-            raise ValueError(f"simulated = {simulated!r}: an integer, and no less than before")
-        self._budget.spend(simulated - self._budget.used)
+        """Charge the budget with what it says it simulated since it was asked first in this game.
+
+        The count can only grow. It is the process's own: one that joins a game that was broken off begins at 0,
+        whatever the budget has lost before.
+        """
+        if isinstance(simulated, bool) or not isinstance(simulated, int) or simulated < self._simulated:
+            raise ValueError(f"simulated = {simulated!r}: an integer, at least {self._simulated}")
+        self._budget.spend(simulated - self._simulated)
+        self._simulated = simulated
 
     def _stop(self, what: str) -> None:
         self._tell(what)

@@ -1,8 +1,8 @@
 """A Python agent as a process: ``python -m client.arena.serving NAME [--seed N] [--options JSON]``.
 
 Reads the messages of ``GET /v1/turns``, and ``refused``, from standard input, a JSON line each. A ``turn`` is answered
-with a line on standard output: the action, and beside it ``simulated``, the shots simulated in this game so far. What
-the agent prints goes to standard error, so that it cannot be taken for an answer.
+with a line on standard output: the action, and beside it ``simulated``, the shots that this process has simulated in
+this game so far. What the agent prints goes to standard error, so that it cannot be taken for an answer.
 """
 
 import argparse
@@ -18,7 +18,7 @@ from client.agents.registry import load
 from client.errors import AgentFailed, NonsenseAnswer
 from client.players import Instance
 from referee import Action, SimulationBudget
-from referee.wire import TURN_MESSAGE, GameOver, Turn
+from referee.wire import TURN_MESSAGE, GameOver, Turn, View
 
 REFUSED = b'{"type": "refused"'
 """How a line begins that says why the last action was not accepted."""
@@ -77,10 +77,9 @@ class _Server:
         return action.to_dict() | {"simulated": instance.budget.used}
 
     def _of(self, turn: Turn) -> Instance:
-        if turn.game not in self._instances:
-            budget = SimulationBudget(turn.view.budget.simulations if turn.view.budget else None)
-            self._instances[turn.game] = Instance(self._factory, budget)
-        return self._instances[turn.game]
+        instance = self._instances.setdefault(turn.game, Instance(self._factory, SimulationBudget()))
+        _limit(instance.budget, turn.view)
+        return instance
 
     def _refused(self, reason: str) -> None:
         try:
@@ -96,6 +95,18 @@ class _Server:
                 instance.game_over(over)
         except Exception:
             traceback.print_exc()
+
+
+def _limit(budget: SimulationBudget, view: View) -> None:
+    """Let the budget grant what the referee says is left, and never more than it did.
+
+    This process may have joined in the middle of the game. Shots that it has not told of yet, because its agent
+    failed after them, are still in what is left.
+    """
+    left = None if view.seat is None else view.clocks[view.seat].simulations_left
+    if left is not None:
+        granted = budget.used + left
+        budget.allowed = granted if budget.allowed is None else min(budget.allowed, granted)
 
 
 def find_here() -> None:

@@ -267,6 +267,70 @@ def test_a_game_broken_off_goes_on_where_it_was(tmp_path, at, values):
     assert sorted(path.name for path in tmp_path.iterdir()) == [f"{task.due.id}.jsonl", f"{task.due.id}.result.json"]
 
 
+SIMULATING = """
+import sys
+from client.agents.random_agent import RandomAgent
+
+
+class Simulating(RandomAgent):
+    "Simulates five shots before each of its strokes, and says first how many it may."
+
+    def __init__(self):
+        super().__init__(1)
+
+    def choose(self, view):
+        print(self.simulator.remaining, file=sys.stderr)
+        action = super().choose(view)
+        if action.shot is not None:
+            self.simulator.simulate_batch(view.table_model(), view.state, [list(action.shot.to_dict().values())] * 5)
+        return action
+"""
+
+
+class BrokenOff:
+    """A seat at which everything stops at the n-th question."""
+
+    def __init__(self, seat, questions):
+        self.seat, self.questions = seat, questions
+
+    def ask(self, view, seconds):
+        if next(self.questions) == 0:
+            raise Unplugged
+        return self.seat.ask(view, seconds)
+
+    def __getattr__(self, name):
+        return getattr(self.seat, name)
+
+
+def test_a_process_goes_on_with_the_budget_it_had_left(tmp_path):
+    """Seen: with clocks the new process counts from 0, and was refused until it had simulated as much once more."""
+    (tmp_path / "simulating.py").write_text(SIMULATING)
+    hosting = Hosting("simulating:Simulating", environment={"PYTHONPATH": str(tmp_path)})
+    (task, _) = games_of(terms_of(seconds=1000.0, simulated_shots=5000))
+    reports = []
+
+    def attempt(folder, number, wrapped=lambda seat: seat):
+        with contextlib.ExitStack() as stack:
+            logs = [tmp_path / f"{number}-{side}.log" for side in range(2)]
+            both = [seat_of(hosting, side, logs[side], lambda what: reports.append(what)) for side in range(2)]
+            for seat in both:
+                stack.callback(seat.close)
+            result, _ = play(task, tuple(map(wrapped, both)), folder, reports_into(reports))
+        return result
+
+    countdown = itertools.count(9, -1)
+    games = tmp_path / "games"
+    games.mkdir()
+    with pytest.raises(Unplugged):
+        attempt(games, 0, lambda seat: BrokenOff(seat, countdown))
+    result = attempt(games, 1)
+    assert reports == []
+    assert result.simulated == tuple(5 * strokes for strokes in result.strokes)
+    for side in range(2):
+        said = [(tmp_path / f"{number}-{side}.log").read_text().split() for number in range(2)]
+        assert said[1][0] == str(int(said[0][-1]) - 5)
+
+
 @pytest.mark.parametrize("cut", [1, 30, 4000])
 def test_a_torn_line_is_played_again(tmp_path, cut):
     (task, _) = games_of(terms_of())
