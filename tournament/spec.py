@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
 from typing import Any, Self
 
+from referee.play.clock import LEAST_SECONDS, MOST_SECONDS
 from tournament.checks import Checker
 from tournament.errors import InvalidSpec
 from tournament.noise_plan import NoisePlan
@@ -19,7 +20,6 @@ MOST_IN_SWISS = 256
 """Entrants of a Swiss: pairing a round of so many takes one to three seconds."""
 MOST_IN_EVENT = 250_000
 """Pairs of games in an event: they are planned in memory."""
-MOST_SECONDS = 86_400.0
 MOST_SHOTS = 10**9
 LONGEST_AGENT = 4096
 """Bounds that keep a slip of the pen from asking for a million years of play."""
@@ -127,7 +127,7 @@ class Spec:
         seeding: whether the order of the entrants counts or is drawn.
         tie_breaks: in this order; empty: those of the format.
         noise: the levels and whether the players are told.
-        seconds: thinking time a player has for a game; None: no wall clock.
+        seconds: thinking time a player has for a game, 0.001 to 86,400; None: no wall clock.
         simulated_shots: shots a player may simulate in a game; None: any number.
         table: ``"olympiad"``, ``"fastfiz"`` or a table's parameters as ``physics.Table.to_dict`` gives them.
         seed: an integer (a repeatable event that everybody can foresee), or 64 hexadecimal digits (a secret: keep
@@ -240,7 +240,9 @@ def _checked(spec: Spec) -> dict[str, Any]:
         "tie_breaks": tuple(_check.member(TieBreak, "tie_breaks", one) for one in tie_breaks)
         or _DEFAULT_TIE_BREAKS[kind],
         "noise": _kind("noise", spec.noise, NoisePlan),
-        "seconds": None if spec.seconds is None else _seconds(spec.seconds),
+        "seconds": None
+        if spec.seconds is None
+        else _check.number("seconds", spec.seconds, LEAST_SECONDS, MOST_SECONDS),
         "simulated_shots": None
         if spec.simulated_shots is None
         else _check.integer("simulated_shots", spec.simulated_shots, 0, MOST_SHOTS),
@@ -259,13 +261,6 @@ def _kind(field: str, value: Any, kind: type) -> Any:
     if not isinstance(value, kind):
         _check.fail(field, value, f"a tournament.{kind.__name__}")
     return value
-
-
-def _seconds(value: Any) -> float:
-    seconds = _check.number("seconds", value, 0.0, MOST_SECONDS)
-    if seconds == 0.0:
-        _check.fail("seconds", value, "more than 0, or none at all for no clock")
-    return seconds
 
 
 def _table(value: Any) -> str | Mapping[str, Any]:

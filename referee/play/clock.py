@@ -8,6 +8,10 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 SECOND_NS = 1_000_000_000
+LEAST_SECONDS = 0.001
+"""The shortest clock there is: less is nothing that anybody could play on, and far less no whole nanosecond."""
+MOST_SECONDS = 86_400.0
+"""The longest: a day for each player."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from referee.play.clock import LEAST_SECONDS, MOST_SECONDS
 from referee.play.noise import LEVEL_MAX
 from referee.wire.values import Flag, Integer, Message, Number, Request
 
@@ -31,7 +32,7 @@ class ClockTerms(Request):
         simulations: shots that each player may simulate in a game; null for any number.
     """
 
-    seconds: Annotated[Number, Field(gt=0, le=86400)] = 300.0
+    seconds: Annotated[Number, Field(ge=LEAST_SECONDS, le=MOST_SECONDS)] = 300.0
     simulations: Annotated[Integer, Field(ge=0, le=SIMULATIONS_MAX)] | None = None
 
 

@@ -7,6 +7,7 @@ from typing import Any, Final, get_args
 
 from sqlalchemy import ColumnElement, Connection, Row, insert, select, update
 
+from referee.play.clock import MOST_SECONDS
 from referee.record import read_record
 from referee.wire import ClockTerms, MatchRequest, NoiseTerms, TournamentStatus
 from referee.wire.matches import RackTerms
@@ -31,8 +32,6 @@ RESULT: Final = "game"
 """The kind of a result's entry."""
 SERVER: Final = "server"
 """Who notes results."""
-LONGEST_CLOCK: Final = 86_400.0
-"""Seconds for a player in an event without a wall clock: a match at a server always has one."""
 
 
 def find(connection: Connection, tournament_id: str) -> Row[Any]:
@@ -140,7 +139,7 @@ def _give_out(writing: Writing, row: Row[Any], ledger: Ledger) -> None:
 
 
 def _begin(writing: Writing, row: Row[Any], spec: Spec, due: Due) -> None:
-    """The match of one game."""
+    """The match of one game; an event may do without a wall clock, a match at a server has one."""
     seed = match_seed(spec, due.pair, due.leg, due.attempt)
     first, second = (row.agents[name] for name in due.pair.players)
     assert seed.given_racks is not None
@@ -149,7 +148,7 @@ def _begin(writing: Writing, row: Row[Any], spec: Spec, due: Due) -> None:
         games=1,
         table=spec.table if isinstance(spec.table, str) else dict(spec.table),  # type: ignore[arg-type]
         noise=NoiseTerms(level=due.pair.noise, told=spec.noise.told),
-        clock=ClockTerms(seconds=spec.seconds or LONGEST_CLOCK, simulations=spec.simulated_shots),
+        clock=ClockTerms(seconds=spec.seconds or MOST_SECONDS, simulations=spec.simulated_shots),
         seed=seed.secret.hex(),
         racks=RackTerms(seed=seed.given_racks.hex()),
         first_breaker=due.breaker,

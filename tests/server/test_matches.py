@@ -54,6 +54,7 @@ def test_only_the_organiser_makes_matches_of_others(new_player):
         ({"noise": {"level": 5.1}}, "noise.level"),
         ({"noise": {"level": 1.0, "told": 1}}, "noise.told"),
         ({"clock": {"seconds": 0}}, "clock.seconds"),
+        ({"clock": {"seconds": 1e-10}}, "clock.seconds"),
         ({"table": {"name": "olympiad", "mu_slide": -1.0}}, "table"),
         ({"table": "snooker"}, "table"),
         ({"rules": "nine_ball"}, "rules"),
