@@ -27,7 +27,8 @@ class Event:
     Attributes:
         spec: the terms.
         results: of games, in any order, void and aborted ones among them.
-        withdrawn: name to the first round in which that entrant is not paired any more.
+        withdrawn: name to the first round in which that entrant is not paired any more. In a knockout that can be a
+            round in which it has been paired: it left the meeting undecided, and the other one goes on.
 
     Raises:
         InvalidResult: a result is not of this event, or a game has two that count.
@@ -136,11 +137,14 @@ class Event:
         """The event with a game's result void: the game is due again, with fresh noise.
 
         Raises:
-            InvalidResult: the game has no result, or a later round or an extra pair has followed from it already.
+            InvalidResult: the game has no result, or a later round or an extra pair has followed from it already, or
+                one of its players has left the event.
         """
         result = self.games.get((pair, leg))
         if result is None:
             _check.fail("pair", f"{pair} game {leg}", "a game with a result")
+        if gone := set(self.withdrawn).intersection(result.players):
+            _check.fail("pair", pair, f"a game that can be played again: {gone.pop()} has left")
         if self._drawn_from(pair):
             _check.fail("pair", pair, "a game that no later round or extra pair has followed from")
         void = replace(result, void=True)
@@ -149,16 +153,24 @@ class Event:
     def disqualified(self, name: str) -> Self:
         """The event without an entrant: its due games are forfeit, and it is not paired any more.
 
+        In a knockout it loses a meeting that is undecided, whatever the points are.
+
         Raises:
             InvalidResult: there is no such entrant.
         """
         self._check_entrant("name", name)
         lost = [due for due in self.due if name in due.pair.players]
-        under_way = [self.plan.pairs[-1].round] if self.plan.pairs else [0]
-        first = self._first_free_round() if self._all_planned() else max(under_way) + 1
-        kept = [due for due in lost if due.pair.round < first]
+        first = self._first_round_without(bool(lost))
+        kept = lost if not self._all_planned() else [due for due in lost if due.pair.round < first]
         gone = dict(self.withdrawn) | {name: min(first, self.withdrawn.get(name, first))}
         return replace(self.with_results(*(forfeit(due, name) for due in kept)), withdrawn=gone)
+
+    def _first_round_without(self, losing: bool) -> int:
+        """The first round without an entrant who leaves now; ``losing``: in the middle of a meeting."""
+        if self._all_planned():
+            return self._first_free_round()
+        under_way = self.plan.pairs[-1].round if self.plan.pairs else 0
+        return under_way if losing and self.spec.format is Format.KNOCKOUT else under_way + 1
 
     def _all_planned(self) -> bool:
         """All rounds are certain from the beginning."""

@@ -133,6 +133,49 @@ def test_an_event_goes_on_to_its_end_without_the_disqualified(kind, entrants, af
     assert all(game.points_of(out) == 0.0 for game in lost if out in game.players)
 
 
+@pytest.mark.parametrize(
+    ("terms", "won", "planned"),
+    [
+        ({"pairs": 1, "extra_pairs": 2}, 1, 1),
+        ({"pairs": 3, "extra_pairs": 2}, 4, 3),
+        ({"pairs": 1, "extra_pairs": 2}, 3, 2),
+    ],
+    ids=["even after the forfeits", "ahead in spite of them", "in an extra pair"],
+)
+def test_who_is_disqualified_in_a_meeting_of_a_knockout_goes_no_further(terms, won, planned):
+    """Seen: an extra pair against nobody, or the next round for the one who was out."""
+    event = Event(spec_of(4, format="knockout", **terms))
+    out, other = event.due[0].pair.players
+    for number in range(won):
+        # the first pair is drawn where there is to be an extra one
+        winner = other if planned > terms["pairs"] and number == 1 else out
+        due = next(due for due in event.due if out in due.pair.players)
+        event = event.with_results(result_of(due, due.pair.players.index(winner)))
+    event = event.disqualified(out)
+    assert not any(out in due.pair.players for due in event.due)
+    assert sum(out in pair.players for pair in event.pairs) == planned
+    assert event.plan.advanced == {other: 1}
+    end = play(event, lambda due: 0)
+    assert {line.name: line.points for line in standings(end)}[out] == 0
+    assert sum(other in one.players for one in end.meetings) == 2, "the final is the other one's"
+
+
+def test_who_is_disqualified_after_its_meeting_stays_its_winner():
+    event = Event(spec_of(4, format="knockout"))
+    event = event.with_results(*(result_of(due, 0) for due in event.due if due.pair.meeting == 0))
+    (winner,) = event.plan.advanced
+    end = play(event.disqualified(winner), lambda due: 0)
+    assert end.plan.advanced[winner] == 1
+    assert [bye.round for bye in end.byes] == [1], "for whoever would have met it"
+
+
+def test_a_game_of_one_who_has_left_is_not_played_again():
+    event = Event(spec_of(2))
+    event = event.with_results(result_of(event.due[0], 0)).disqualified("a")
+    with pytest.raises(InvalidResult, match="a has left"):
+        event.voided("r0-m0-p0", 0)
+
+
 def test_nobody_else_can_be_disqualified():
     with pytest.raises(InvalidResult, match="name = 'z': an entrant of event"):
         Event(spec_of(2)).disqualified("z")

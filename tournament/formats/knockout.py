@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tournament.formats.order import Meet, pair_of, seeded
-from tournament.pairings import Bye, Pair, Plan
+from tournament.pairings import LEGS, Bye, Pair, Plan
 from tournament.results import GameResult
 from tournament.scores import Key, meetings
 from tournament.seeds import lot
@@ -58,26 +58,28 @@ def _play_round(draw: _Draw, line: Sequence[str | None], around: int) -> Iterato
     """The winner of each meeting: None if nobody came, an empty name while it is open."""
     for number in range(len(line) // 2):
         there = [name for name in line[2 * number : 2 * number + 2] if name is not None]
-        left = [name for name in there if around < draw.withdrawn.get(name, around + 1)]
-        if len(left) == 2:
-            yield _meet(draw, (around, number, left[0], left[1])) or ""
-            continue
-        draw.byes += [Bye(around, name) for name in left]
-        yield left[0] if left else None
+        staying = [name for name in there if around < draw.withdrawn.get(name, around + 1)]
+        if len(staying) == 2:
+            yield _meet(draw, (around, number, there[0], there[1])) or ""
+        elif len(there) == 2 and _begun(draw, _pair(draw, (around, number, there[0], there[1]), 0)):
+            draw.pairs += _broken_off(draw, (around, number, there[0], there[1]))
+            yield staying[0] if staying else None
+        else:
+            draw.byes += [Bye(around, name) for name in staying]
+            yield staying[0] if staying else None
 
 
 def _meet(draw: _Draw, meet: Meet) -> str | None:
     """Plan a meeting, extra pairs while it is drawn; its winner once that is known."""
     spec, (around, number, one, other) = draw.spec, meet
     pairs: list[Pair] = []
-    start = _meetings_before(len(spec.entrants), around, number) * (spec.pairs + spec.extra_pairs)
     for index in range(spec.pairs + spec.extra_pairs):
         if index >= spec.pairs:
             (meeting,) = meetings(pairs, draw.games)
             if not meeting.complete or meeting.winner is not None:
                 break
-        pairs.append(pair_of(spec, meet, index, start + index))
-        draw.pairs.append(pairs[-1])
+        pairs.append(_pair(draw, meet, index))
+    draw.pairs += pairs
     (meeting,) = meetings(pairs, draw.games)
     if not meeting.complete:
         return None
@@ -87,6 +89,26 @@ def _meet(draw: _Draw, meet: Meet) -> str | None:
         return (one, other)[lot(spec, f"meeting {around} {number}").below(2)]
     order = seeded(spec)
     return min((one, other), key=order.index)
+
+
+def _broken_off(draw: _Draw, meet: Meet) -> Iterator[Pair]:
+    """The pairs of a meeting that somebody left undecided: what was planned by then, all with results."""
+    for index in range(draw.spec.pairs + draw.spec.extra_pairs):
+        pair = _pair(draw, meet, index)
+        if index < draw.spec.pairs or _begun(draw, pair):
+            yield pair
+
+
+def _begun(draw: _Draw, pair: Pair) -> bool:
+    """Whether a game of a pair counts already."""
+    return any((pair.id, leg) in draw.games for leg in LEGS)
+
+
+def _pair(draw: _Draw, meet: Meet, index: int) -> Pair:
+    """The ``index``-th pair of a meeting, extra pairs counted on."""
+    spec, (around, number, _, _) = draw.spec, meet
+    start = _meetings_before(len(spec.entrants), around, number) * (spec.pairs + spec.extra_pairs)
+    return pair_of(spec, meet, index, start + index)
 
 
 def _meetings_before(entrants: int, around: int, number: int) -> int:
