@@ -52,6 +52,10 @@ class NoisePlan:
         which: dict[str, Any] = {"levels": list(self.levels)} if self.range is None else {"range": list(self.range)}
         return which | {"told": self.told}
 
+    def published(self) -> dict[str, Any]:
+        """The same without levels that the players are not told."""
+        return self.to_dict() if self.told else {"told": False}
+
     @classmethod
     def from_dict(cls, data: Any) -> Self:
         """Read what ``to_dict`` wrote; a number alone is one level, told."""

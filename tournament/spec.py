@@ -193,10 +193,17 @@ class Spec:
         }
 
     def published(self) -> dict[str, Any]:
-        """The terms as everybody may read them: without the seed, and without what the players run."""
-        terms = self.to_dict()
+        """The terms as everybody may read them while the event goes on.
+
+        Without the seed, without levels of noise that the players are not told, and without what the players run.
+        """
+        terms = self.to_dict() | {"noise": self.noise.published()}
         del terms["seed"]
         return terms | {"entrants": [{"name": name} for name in self.names]}
+
+    def revealed(self) -> dict[str, Any]:
+        """The same when the event is over: nothing but what the players run is kept back."""
+        return self.published() | {"noise": self.noise.to_dict(), "seed": self.seed}
 
     @classmethod
     def from_dict(cls, data: Any) -> Self:

@@ -119,7 +119,7 @@ class TournamentView(TournamentSummary):
     """An event.
 
     Attributes:
-        terms: as published: without the seed, which is here when the event is over.
+        terms: as published: the seed, and levels of noise that the players are not told, when the event is over.
         agents: entrant's name to agent id.
         played: games that were begun, in order. log: what was decided.
     """

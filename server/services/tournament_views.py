@@ -40,7 +40,7 @@ def view_of(connection: Connection, row: Row[Any], course: Course) -> Tournament
     spec, over = ledger.event.spec, row.status not in events.OPEN
     return TournamentView(
         **_summary(row),
-        terms=spec.published() | ({"seed": spec.seed} if over else {}),
+        terms=spec.revealed() if over else spec.published(),
         agents=row.agents,
         played=tuple(_games(connection, row, ledger)),
         log=tuple(_entry(each) for each in events.decisions(connection, row.id)),

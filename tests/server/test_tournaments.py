@@ -4,6 +4,7 @@ import signal
 
 import pytest
 from support.cup import Cup
+from support.streams import until, watching
 
 from referee.record import read_record, verify_record
 from tournament import Event, Spec, game_seeds
@@ -72,12 +73,25 @@ def test_the_seed_is_a_secret_until_the_end(cup, organiser):
     assert event.read()["terms"]["seed"] == 5
 
 
-def test_an_unknown_level_of_noise_is_a_secret_until_the_end(cup):
-    event = cup(("ann", "bob"), noise={"levels": [3.0], "told": False})
-    event.act("start")
-    assert event.running()[0]["noise"] is None
+@pytest.mark.parametrize("noise", [{"levels": [3.0625]}, {"range": [3.0625, 3.0625]}], ids=["levels", "range"])
+def test_an_unknown_level_of_noise_is_a_secret_until_the_end(cup, server, noise):
+    """Whatever is answered while the event goes on: its terms told the level, where each game did not."""
+    event = cup(("ann", "bob"), noise=noise | {"told": False})
+    answers = [event.organiser.get(f"/v1/tournaments/{event.id}"), event.act("start")]
+    (running,) = event.running()
+    assert running["noise"] is None
+    (game,) = event.organiser.get(f"/v1/matches/{running['match']}").json()["played"]
+    paths = (f"tournaments/{event.id}", f"tournaments/{event.id}/standings", "tournaments")
+    paths += (f"matches/{running['match']}", f"games/{game['id']}", f"games/{game['id']}/shots")
+    answers += [event.organiser.get(f"/v1/{path}") for path in paths]
+    assert {answer.status_code for answer in answers} == {200}
+    told = [answer.text for answer in answers]
+    with watching(server, f"/v1/games/{game['id']}/stream") as events:
+        told += [str(event.data) for event in until(events, "connections")]
+    assert not [text for text in told if "3.0625" in text]
     event.play_out()
-    assert {game["noise"] for game in event.read()["played"]} == {3.0}
+    assert {game["noise"] for game in event.read()["played"]} == {3.0625}
+    assert event.read()["terms"]["noise"] == noise | {"told": False}
 
 
 def test_a_pause_lets_games_end_and_begins_none(cup):

@@ -96,6 +96,14 @@ def test_published_terms_tell_no_secret():
     assert "seed" not in spec.published()
 
 
+@pytest.mark.parametrize("plan", [NoisePlan((3.0625,), told=False), NoisePlan.variable(3.0625, 3.125, told=False)])
+def test_levels_that_are_not_told_are_published_when_the_event_is_over(plan):
+    spec = Spec("event", (Entrant("a"), Entrant("b")), noise=plan, seed=5)
+    assert spec.published()["noise"] == {"told": False}
+    assert spec.revealed()["noise"] == plan.to_dict()
+    assert spec.revealed()["seed"] == 5
+
+
 def test_a_swiss_has_at_most_256_entrants():
     spec_of(256, format="swiss", rounds=1)
     with pytest.raises(InvalidSpec, match="at most 256 in a Swiss"):

@@ -33,7 +33,7 @@ def event_report(event: Event, luck: Mapping[Key, GameLuck] | None = None) -> Da
         "format": FORMAT,
         "kind": "event",
         "name": event.spec.name,
-        "terms": event.spec.published(),
+        "terms": event.spec.published() | {"noise": event.spec.noise.to_dict()},  # the games below show it as well
         "state": {
             "finished": event.finished,
             "stopped": event.stopped,
