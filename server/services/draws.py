@@ -1,5 +1,6 @@
 """The draw of a match as the database keeps it: its secrets, its commitment, what the players added."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from sqlalchemy import Row
@@ -29,7 +30,7 @@ def columns(request: MatchRequest, match_id: str) -> dict[str, Any]:
         shared_racks=seed.shared_racks,
         paired_racks=request.racks.paired,
         first_breaker=request.first_breaker,
-        position=None if request.start is None else request.start.to_game(),
+        position=_position(request.table, request.start),
     )
     return {
         "seed": seed.secret.hex(),
@@ -58,10 +59,7 @@ def terms_of(match: Row[Any]) -> MatchTerms:
 
 def position_of(match: Row[Any]) -> Game | None:
     """Where the match's games begin, None when they begin with a break."""
-    if match.start is None:
-        return None
-    rules = EightBall(Table.from_dict(match.table))
-    return rules.begin_from(Position.model_validate(match.start).to_game())
+    return _position(match.table, None if match.start is None else Position.model_validate(match.start))
 
 
 def first_breaker(match: Row[Any]) -> int:
@@ -86,6 +84,11 @@ def kept_seeds(match: Row[Any], game: GameRow) -> GameSeeds:
         client_seeds=client_seeds_from_hex((match.client_seed_0, match.client_seed_1)),
         shared_racks=match.rack_seed is not None,
     )
+
+
+def _position(table: Mapping[str, Any], start: Position | None) -> Game | None:
+    """What a match is committed to is the referee's reading of its start: records hold that one."""
+    return None if start is None else EightBall(Table.from_dict(table)).begin_from(start.to_game())
 
 
 def _seed(match: Row[Any]) -> MatchSeed:

@@ -2,7 +2,9 @@
 
 import pytest
 
-from referee.record import verify_record
+from physics import Table, rack
+from referee.play import GameSeeds, seed_from_hex
+from referee.record import MatchTerms, read_record, verify_record
 
 START = {"balls": {"0": [0.5, 1.7], "3": [0.4, 0.6], "8": [0.9, 0.4]}, "groups": ["solids", "stripes"]}
 
@@ -49,6 +51,29 @@ def test_an_agent_may_challenge_from_a_position(server, new_player):
     assert (made.status_code, made.json()["status"]) == (201, "challenged")
     accepted = bob.post(f"/v1/matches/{made.json()['id']}/accept")
     assert accepted.json()["played"][0]["breaker"] == 0
+
+
+STARTS = {
+    "play": START,
+    "break": {
+        "balls": rack(Table.olympiad(), "eight_ball", seed=7).to_dict(),
+        "phase": "break",
+        "cue_ball_in_hand": "kitchen",
+    },
+    "decision": {"balls": START["balls"], "phase": "decision", "choice": "R12", "turn": 1},
+}
+
+
+@pytest.mark.parametrize("phase", STARTS)
+def test_the_match_shows_the_commitment_that_its_record_leads_to(new_table, phase):
+    """A match that began with a decision had committed to the decision before the referee had listed its choices."""
+    table = new_table(start=STARTS[phase])
+    mover, view = table.mover()
+    assert mover.post(f"/v1/games/{view['game']}/concede", version=view["version"]).status_code == 200
+    record = read_record(mover.get(f"/v1/games/{view['game']}/record").text.splitlines())
+    seeds = GameSeeds(seed_from_hex(record.end["noise_secret"]), seed_from_hex(record.end["rack_secret"]))
+    assert record.header["commitment"] == MatchTerms.from_dict(record.header).commitment(seeds, 0)
+    assert table.match["commitment"] == record.header["commitment"]
 
 
 @pytest.mark.parametrize(
