@@ -9,6 +9,7 @@ from typing import Any
 
 import httpx2
 
+from client.compliance.bodies import FRAMING, read_body
 from client.compliance.situations import Twist
 from referee.wire import PROBLEM_JSON, Problem, ProblemCode
 
@@ -105,6 +106,13 @@ class Proxy:
         self._keep(at, method, path, headers, body, None if cut else response, twist is not Twist.NONE)
         return None if cut else response
 
+    def refuse(self, method: str, path: str, headers: dict[str, str], reason: str) -> httpx2.Response:
+        """What the agent is answered when its request cannot be read."""
+        problem = Problem.of(ProblemCode.BAD_HEADER, 400, reason, instance=path)
+        response = _rendered(problem, {})
+        self._keep(time.monotonic(), method, path, headers, b"", response, twisted=False)
+        return response
+
     def _due(self, method: str, path: str) -> Twist:
         """The twist, if it is this request's turn to be twisted."""
         tail = path.partition("?")[0].rpartition("/")[2]
@@ -119,7 +127,7 @@ class Proxy:
             return self._twist if due else Twist.NONE
 
     def _forward(self, method: str, path: str, headers: dict[str, str], body: bytes) -> httpx2.Response | None:
-        kept = {name: value for name, value in headers.items() if name not in ("host", "connection", "content-length")}
+        kept = {name: value for name, value in headers.items() if name not in ("host", "connection", *FRAMING)}
         try:
             return self._client.request(method, path, headers=kept, content=body or None)
         except httpx2.TransportError:
@@ -162,13 +170,21 @@ class Proxy:
             protocol_version = "HTTP/1.1"
 
             def _pass_on(self) -> None:
-                body = self.rfile.read(int(self.headers.get("Content-Length") or 0))
                 headers = {name.lower(): value for name, value in self.headers.items()}
+                try:
+                    body = read_body(headers, self.rfile)
+                except ValueError as error:  # where the next request begins cannot be known
+                    self.close_connection = True
+                    self._reply(proxy.refuse(self.command, self.path, headers, str(error)))
+                    return
                 response = proxy.answer(self.command, self.path, headers, body)
                 if response is None:
                     self.close_connection = True
                     self.connection.close()
                     return
+                self._reply(response)
+
+            def _reply(self, response: httpx2.Response) -> None:
                 self.send_response(response.status_code)
                 for name, value in response.headers.items():
                     if name not in (
@@ -181,6 +197,8 @@ class Proxy:
                     ):
                         self.send_header(name, value)
                 self.send_header("Content-Length", str(len(response.content)))
+                if self.close_connection:
+                    self.send_header("Connection", "close")
                 self.end_headers()
                 self.wfile.write(response.content)
 
@@ -207,12 +225,16 @@ class Proxy:
 def _problem(twist: Twist, path: str) -> httpx2.Response:
     """What the proxy says in the server's place."""
     code, status, words = ProblemCode.DRAINING, 503, "the server is shutting down"
-    headers = {"Content-Type": PROBLEM_JSON, "Retry-After": str(RETRY_AFTER)}
+    headers = {"Retry-After": str(RETRY_AFTER)}
     if twist is Twist.REFUSED:
         code, status, words = ProblemCode.REFUSED, 422, "refused to see what happens; try again"
-        del headers["Retry-After"]
-    problem = Problem.of(code, status, words, instance=path)
-    return httpx2.Response(status, content=problem.model_dump_json(exclude_unset=True).encode(), headers=headers)
+        headers = {}
+    return _rendered(Problem.of(code, status, words, instance=path), headers)
+
+
+def _rendered(problem: Problem, headers: dict[str, str]) -> httpx2.Response:
+    content = problem.model_dump_json(exclude_unset=True).encode()
+    return httpx2.Response(problem.status, content=content, headers={"Content-Type": PROBLEM_JSON} | headers)
 
 
 def _with_new_fields(response: httpx2.Response) -> httpx2.Response:

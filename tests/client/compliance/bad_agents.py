@@ -1,4 +1,7 @@
-"""Agents that speak HTTP and do one thing wrong, named by the first argument; `none` does nothing wrong."""
+"""Agents that speak HTTP and do one thing wrong, named by the first argument; `none` does nothing wrong.
+
+With `chunks` as the second argument bodies are sent in chunks, as some HTTP libraries do.
+"""
 
 import json
 import math
@@ -17,6 +20,8 @@ def ask(method, path, body=None, **headers):
     """Status and content of an answer; 0 when none came."""
     content = None if body is None else body if isinstance(body, bytes) else json.dumps(body).encode()
     sent = {"Authorization": f"Bearer {TOKEN}", "Content-Type": "application/json"} | headers
+    if content is not None and sys.argv[2:] == ["chunks"]:
+        content = iter([content])
     request = urllib.request.Request(URL + path, content, sent, method=method)
     try:
         with urllib.request.urlopen(request, timeout=60) as answer:
