@@ -9,10 +9,11 @@ from referee.play import nanoseconds
 from referee.wire import AgentList, AgentRequest, AgentToken, AgentView
 from server.errors import Forbidden, NameTaken, NotFound
 from server.security.callers import Caller, Scope
-from server.security.tokens import derived_token, digest, new_salt, new_token
+from server.security.tokens import derived_token, digest, new_token
 from server.services import pages
-from server.services.commands import Answer, Command, once
+from server.services.commands import Answer, Command
 from server.services.context import Context, Writing
+from server.services.shown_secrets import once_with_salt
 from server.services.time import date_time
 from server.services.tokens import use_invitation
 from server.store.locks import only_one
@@ -78,12 +79,11 @@ def listing(
 def rotate(context: Context, agent_id: str, command: Command) -> Answer:
     """A new token in place of the old ones, which stop working at once.
 
-    What is kept for a repetition is a salt, from which only the token presented makes the new one. An agent
-    that loses the answer to its own rotation has a void token left, and asks the organiser for another.
+    An agent that loses the answer to its own rotation has a void token left, and asks the organiser for another.
     """
     with context.writing() as writing:
         agent = _owned(writing.connection, agent_id, command.caller)
-        salt = once(writing.connection, command, lambda: _rotated(writing, agent_id, command)).body.decode()
+        salt, _ = once_with_salt(writing.connection, command, lambda salt: _rotated(writing, agent_id, command, salt))
     return Answer.of(200, AgentToken(agent=_view(agent), token=derived_token(command.caller.token, salt)))
 
 
@@ -95,11 +95,10 @@ def renewed_token(writing: Writing, agent_id: str) -> str:
     return token
 
 
-def _rotated(writing: Writing, agent_id: str, command: Command) -> Answer:
-    salt = new_salt()
+def _rotated(writing: Writing, agent_id: str, command: Command, salt: str) -> str:
     _revoke(writing, agent_id)
     _issue(writing, agent_id, derived_token(command.caller.token, salt))
-    return Answer(200, salt.encode())
+    return agent_id
 
 
 def revoke(context: Context, agent_id: str, caller: Caller) -> None:

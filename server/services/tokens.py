@@ -10,10 +10,11 @@ from referee.play import nanoseconds
 from referee.wire import InvitationRequest, Invitations, TokenList, TokenRequest, TokenSecret, TokenView
 from server.errors import Forbidden, NotFound, WrongStatus
 from server.security.callers import Caller
-from server.security.tokens import INVITATION_PREFIX, STAFF_PREFIX, derived_token, digest, new_salt
+from server.security.tokens import INVITATION_PREFIX, STAFF_PREFIX, derived_token, digest
 from server.services import pages
-from server.services.commands import Answer, Command, once, parse
+from server.services.commands import Answer, Command, parse
 from server.services.context import Context
+from server.services.shown_secrets import once_with_salt
 from server.services.time import date_time
 from server.store.tables import invitations, tokens
 
@@ -22,8 +23,9 @@ def create(context: Context, command: Command) -> Answer:
     """A token with the scopes asked for; the answer shows it, and shows it again when the request is repeated."""
     command.caller.require_admin()
     with context.writing() as writing:
-        kept = once(writing.connection, command, lambda: _created(writing.connection, command))
-        token_id, salt = kept.body.decode().split()
+        salt, token_id = once_with_salt(
+            writing.connection, command, lambda salt: _created(writing.connection, command, salt)
+        )
         row = _find(writing.connection, token_id)
     return _secret(201, row, command, salt)
 
@@ -33,7 +35,9 @@ def rotate(context: Context, token_id: str, command: Command) -> Answer:
     command.caller.require_admin()
     with context.writing() as writing:
         row = _find(writing.connection, token_id)
-        salt = once(writing.connection, command, lambda: _rotated(writing.connection, row, command)).body.decode()
+        salt, _ = once_with_salt(
+            writing.connection, command, lambda salt: _rotated(writing.connection, row, command, salt)
+        )
         row = _find(writing.connection, token_id)
     return _secret(200, row, command, salt)
 
@@ -62,8 +66,9 @@ def invite(context: Context, command: Command) -> Answer:
     command.caller.require_organiser()
     request = parse(command, InvitationRequest)
     with context.writing() as writing:
-        kept = once(writing.connection, command, lambda: _invited(writing.connection, command, request))
-    salt, expires_at = kept.body.decode().split()
+        salt, expires_at = once_with_salt(
+            writing.connection, command, lambda salt: _invited(writing.connection, command, request, salt)
+        )
     codes = _codes(command.caller.token, salt, request.count)
     return Answer.of(201, Invitations(invitations=codes, expires_at=_expiry(int(expires_at) or None)))
 
@@ -77,10 +82,10 @@ def use_invitation(connection: Connection, code: str | None, agent_id: str, now:
         raise Forbidden("registration is by invitation; the code is missing, unknown, used or expired")
 
 
-def _created(connection: Connection, command: Command) -> Answer:
-    request, salt = parse(command, TokenRequest), new_salt()
+def _created(connection: Connection, command: Command, salt: str) -> str:
+    request, token_id = parse(command, TokenRequest), f"token_{secrets.token_hex(8)}"
     row = {
-        "id": f"token_{secrets.token_hex(8)}",
+        "id": token_id,
         "digest": digest(derived_token(command.caller.token, salt, STAFF_PREFIX)),
         "name": request.name,
         "scopes": " ".join(sorted(set(request.scopes))),
@@ -88,24 +93,24 @@ def _created(connection: Connection, command: Command) -> Answer:
         "expires_at": _after(command.arrived, request.seconds),
     }
     connection.execute(insert(tokens).values(row))
-    return Answer(201, f"{row['id']} {salt}".encode())
+    return token_id
 
 
-def _rotated(connection: Connection, row: Row[Any], command: Command) -> Answer:
+def _rotated(connection: Connection, row: Row[Any], command: Command, salt: str) -> str:
     if row.revoked_at is not None:
         raise WrongStatus("the token was revoked; make another")
-    salt = new_salt()
     renewed = digest(derived_token(command.caller.token, salt, STAFF_PREFIX))
     connection.execute(update(tokens).where(tokens.c.id == row.id).values(digest=renewed))
-    return Answer(200, salt.encode())
+    return str(row.id)
 
 
-def _invited(connection: Connection, command: Command, request: InvitationRequest) -> Answer:
-    salt, expires_at = new_salt(), _after(command.arrived, request.seconds)
+def _invited(connection: Connection, command: Command, request: InvitationRequest, salt: str) -> str:
+    """Stores the codes; what is said of them is when they expire, 0 for never."""
+    expires_at = _after(command.arrived, request.seconds)
     codes = _codes(command.caller.token, salt, request.count)
     rows = [{"digest": digest(code), "created_at": command.arrived, "expires_at": expires_at} for code in codes]
     connection.execute(insert(invitations), rows)
-    return Answer(201, f"{salt} {expires_at or 0}".encode())
+    return str(expires_at or 0)
 
 
 def _codes(presented: str, salt: str, count: int) -> tuple[str, ...]:

@@ -58,6 +58,15 @@ def test_a_rotation_sent_again_by_the_organiser_gives_the_same_token(organiser, 
     assert player.get("/v1/turns").status_code == 204
 
 
+def test_a_rotation_sent_again_with_the_new_token_shows_no_token_that_was_never_made(new_player):
+    player = new_player()
+    path = f"/v1/agents/{player.id}/token"
+    player.token = player.post(path, key="rotate").json()["token"]
+    again = player.post(path, key="rotate")
+    assert (again.status_code, again.json()["code"]) == (422, "key_reused")
+    assert player.get("/v1/turns").status_code == 204
+
+
 def test_revocation_leaves_an_agent_without_a_token_until_the_organiser_gives_one(organiser, new_player):
     player = new_player()
     assert player.request("DELETE", f"/v1/agents/{player.id}/token").status_code == 204

@@ -49,6 +49,21 @@ def test_a_request_sent_again_shows_the_same_token(organiser):
     assert first.content == again.content
 
 
+@pytest.mark.parametrize(
+    ("path", "body"),
+    [("/v1/tokens", {"name": "again", "scopes": ["read"]}), ("/v1/invitations", {"count": 2})],
+)
+def test_a_request_sent_again_with_a_rotated_token_shows_no_secret_that_was_never_made(organiser, server, path, body):
+    """The answer was derived from the token presented now: 201, with secrets that the server did not know."""
+    made = make(organiser, "admin")
+    admin = type(organiser)(server, made["id"], made["token"])
+    assert admin.post(path, body, key="again").status_code == 201
+    admin.token = admin.post(f"/v1/tokens/{made['id']}/rotate").json()["token"]
+    again = admin.post(path, body, key="again")
+    assert (again.status_code, again.json()["code"]) == (422, "key_reused")
+    assert admin.post(path, body).status_code == 201
+
+
 def test_an_expired_token_is_refused_and_says_so(server, organiser):
     made = make(organiser, "read", seconds=1.5)
     assert server.request("GET", "/v1/agents", made["token"]).status_code == 200
