@@ -1,7 +1,9 @@
 """Many shots at once: ``simulate_batch``."""
 
 import dataclasses
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +20,8 @@ from physics.table import Table
 
 PARTS_PER_THREAD = 8
 """A batch is cut finer than into one part a thread: a thread that was held up leaves its parts to the others."""
+CHECKED_ROWS = 64
+"""Some two milliseconds of ordinary shots."""
 
 FACTS_WORDS = FACTS_DTYPE.itemsize // 4
 """Size of one shot's facts in 32-bit words."""
@@ -63,6 +67,7 @@ def simulate_batch(
     shots: ArrayLike,
     threads: int = 1,
     counters: NDArray[np.int64] | None = None,
+    check: Callable[[], None] | None = None,
 ) -> Batch:
     """Simulate n shots without traces. Each has the same bits as ``simulate`` gives it, whatever ``threads``.
 
@@ -72,6 +77,7 @@ def simulate_batch(
         threads: how many threads share the rows; the interpreter is not held meanwhile.
         counters: (n, 4) int64 to be filled with the work each shot took: predictions of a ball's next event, pairs the
             filter left, contacts solved, looks at the boundary.
+        check: called before every ``CHECKED_ROWS`` rows or fewer; what it raises ends the batch.
 
     A shot that cannot be played is a result: its status says why, positions unchanged, no events.
 
@@ -99,15 +105,21 @@ def simulate_batch(
     run, row = kernels().simulate_rows, parameters(table)
 
     def part(first: int, last: int) -> None:
+        if check is not None:
+            check()
         if not isinstance(states, TableState):
             _refuse_bad_rows(row, positions, first, last)
         run(row, *workspace(), *arguments, first, last)
 
-    if threads == 1 or n < 2:
-        part(0, n)
+    parts = 1 if threads == 1 else PARTS_PER_THREAD * threads
+    if check is not None:
+        parts = max(parts, -(-n // CHECKED_ROWS))
+    parts = min(n, parts)
+    edges = [n * k // parts for k in range(parts + 1)] if parts else [0]
+    if threads == 1 or parts < 2:
+        for first, last in pairwise(edges):
+            part(first, last)
         return batch
-    parts = min(n, PARTS_PER_THREAD * threads)
-    edges = [n * k // parts for k in range(parts + 1)]
     with ThreadPoolExecutor(threads) as pool:
         for _ in pool.map(part, edges[:-1], edges[1:]):  # in order: the first bad row is the one named
             pass

@@ -23,8 +23,9 @@ class TableState:
     Build one with ``from_positions``, ``from_dict`` or ``physics.rack``.
     """
 
-    __slots__ = ("_positions", "_valid_on")
+    __slots__ = ("_balls", "_positions", "_valid_on")
 
+    _balls: tuple[int, ...] | None
     _positions: NDArray[np.float64]
     _valid_on: Table | None
 
@@ -53,6 +54,7 @@ class TableState:
         state = cls.__new__(cls)
         positions.flags.writeable = False
         state._positions = positions
+        state._balls = None
         state._valid_on = None
         return state
 
@@ -85,7 +87,9 @@ class TableState:
     @property
     def balls(self) -> tuple[int, ...]:
         """Numbers of the balls on the table, ascending."""
-        return tuple(np.flatnonzero(self._positions[:, 0] == self._positions[:, 0]).tolist())
+        if self._balls is None:
+            self._balls = tuple(np.flatnonzero(self._positions[:, 0] == self._positions[:, 0]).tolist())
+        return self._balls
 
     def position(self, ball: int) -> tuple[float, float] | None:
         """(x, y) in metres, or None when the ball is not on the table."""

@@ -75,6 +75,7 @@ def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManag
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         context.database.membership.enter()
+        context.time.adjust()
         upgrade(context.database)
         with context.writing() as writing:
             keys.ensure(writing.connection, writing.now)

@@ -1,6 +1,6 @@
 """Places at which the process can be told to die, for tests of what a crash leaves behind.
 
-`POOLIAD_FAILPOINT=shot-stored:3` kills the process, as `kill -9` does, when it comes to that place for the third time.
+`POOLIAD_FAILPOINT=shot-moved:3` kills the process, as `kill -9` does, when it comes to that place for the third time.
 Unless the environment names one when the server starts, coming to such a place does nothing, and nothing that a
 client sends changes that.
 """
@@ -18,8 +18,8 @@ POINTS: Final = (
     "turn-committed",  # after it, before the answer
     "shot-admitted",  # the request is checked, nothing is simulated
     "shot-simulated",  # simulated, nothing is stored
-    "shot-moved",  # in the transaction, the move is written
-    "shot-advanced",  # in the transaction, the game is written too
+    "shot-advanced",  # in the transaction, the game is written
+    "shot-moved",  # in the transaction, the move is written too
     "shot-kept",  # in the transaction, the answer is written too
     "shot-committed",  # after it, before anybody is woken
     "shot-woken",  # the players are woken, the answer is not sent

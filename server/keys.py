@@ -32,8 +32,8 @@ def main() -> None:
 
 def _done(action: str, database: Database) -> str:
     upgrade(database)
+    now = database.clock() if database.is_shared else TimeSource().now()
     with database.writing() as connection:
-        now = TimeSource().now()
         if action == "rotate":
             keys.rotate(connection, now)
         keys.ensure(connection, now)

@@ -62,6 +62,7 @@ class Settings:
     stream_recheck: float = setting(1.0, "between looks of a stream that nobody woke")
     stream_keepalive: float = setting(15.0, "between comments in a stream that is silent")
     header_seconds: float = setting(10.0, "a request's headers must be complete after")
+    unread_seconds: float = setting(30.0, "an answer of which nobody reads 64 kB in so long is given up")
     address_connections: int = setting(
         2000, "connections of one address at once; 0: any number, as behind a proxy", zero=True
     )

@@ -1,6 +1,6 @@
 """What endpoints are given: the context, the caller, the command, the page."""
 
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator
 from typing import Annotated
 
 from fastapi import Depends, Header, Query, Request, Response
@@ -30,27 +30,26 @@ async def _server(request: Request) -> Context:
 Server = Annotated[Context, Depends(_server)]
 
 
-async def _token(authorization: Annotated[str | None, Header(include_in_schema=False)] = None) -> str | None:
-    return bearer(authorization)
-
-
-Token = Annotated[str | None, Depends(_token)]
-
-
-def _caller(context: Server, token: Token, request: Request) -> Caller:
+def _caller(request: Request) -> Caller:
+    context = context_of(request)
     with context.database.reading() as connection:
-        caller = _identified(context, connection, token, request)
+        caller = _identified(connection, request)
     context.limits.count(caller)
     return caller
 
 
-def _identified(context: Context, connection: Connection, token: str | None, request: Request) -> Caller:
+def _identified(connection: Connection, request: Request) -> Caller:
     """The caller; whoever comes without a valid token is counted by address."""
+    context = context_of(request)
     try:
-        return identify(connection, token, context.settings.organiser_digest, context.time.now())
+        return identify(connection, _token(request), context.settings.organiser_digest, context.time.now())
     except Unauthorized:
         context.limits.count_stranger(_address(request))
         raise
+
+
+def _token(request: Request) -> str | None:
+    return bearer(request.headers.get("authorization"))
 
 
 def _address(request: Request) -> str:
@@ -62,16 +61,15 @@ def _simulating(caller: Annotated[Caller, Depends(_caller)]) -> Caller:
     return caller
 
 
-def _visitor(context: Server, token: Token, request: Request) -> Caller | None:
-    if token is not None:
-        return _caller(context, token, request)
-    context.limits.count_stranger(_address(request))
+def _visitor(request: Request) -> Caller | None:
+    if _token(request) is not None:
+        return _caller(request)
+    context_of(request).limits.count_stranger(_address(request))
     return None
 
 
-def _reader(context: Server, token: Token, request: Request) -> Caller | None:
-    known = token is not None or not context.settings.public_reads
-    return _caller(context, token, request) if known else _visitor(context, None, request)
+def _reader(request: Request) -> Caller | None:
+    return _visitor(request) if context_of(request).settings.public_reads else _caller(request)
 
 
 Authenticated = Annotated[Caller, Depends(_caller)]
@@ -105,33 +103,30 @@ Body = Annotated[bytes, Depends(_body)]
 ContentType = Annotated[str | None, Header(include_in_schema=False)]
 
 
-Key = Annotated[str | None, Header(alias="Idempotency-Key", include_in_schema=False)]
-Version = Annotated[str | None, Header(alias="If-Match", include_in_schema=False)]
+def _sent(request: Request, caller: Caller) -> Command:
+    """Headers are read here: each one that the framework is told of takes it longer than the look-up."""
+    headers, state = request.headers, request.state
+    return Command(
+        caller=caller,
+        route=request.url.path,
+        key=headers.get("idempotency-key"),
+        if_match=headers.get("if-match"),
+        content_type=headers.get("content-type"),
+        body=state.body,
+        arrived=state.arrived,
+    )
 
 
-async def _unsigned(
-    request: Request, body: Body, key: Key = None, if_match: Version = None, content_type: ContentType = None
-) -> Callable[[Caller], Command]:
-    def sent(caller: Caller) -> Command:
-        path, arrived = request.url.path, request.state.arrived
-        return Command(caller, path, key, if_match, content_type, body, arrived)
-
-    return sent
-
-
-Unsigned = Annotated[Callable[[Caller], Command], Depends(_unsigned)]
-
-
-async def _command(caller: Authenticated, sent: Unsigned) -> Command:
-    return sent(caller)
+async def _command(caller: Authenticated, request: Request) -> Command:
+    return _sent(request, caller)
 
 
 Sent = Annotated[Command, Depends(_command)]
 """A state-changing request."""
 
 
-async def _move(context: Server, token: Token, request: Request, sent: Unsigned) -> Move:
-    return lambda connection: sent(_identified(context, connection, token, request))
+async def _move(request: Request) -> Move:
+    return lambda connection: _sent(request, _identified(connection, request))
 
 
 Moved = Annotated[Move, Depends(_move)]
@@ -141,7 +136,7 @@ Moved = Annotated[Move, Depends(_move)]
 async def _in_hand(game_id: str, request: Request) -> AsyncIterator[None]:
     """Tell the timer that a complete request of this game is being worked on.
 
-    Runs on the loop, before any queueing.
+    Runs on the loop, before any queueing; over when there is an answer, whether or not it is being read.
     """
     in_hand, arrived = context_of(request).in_hand, request.state.arrived
     in_hand[game_id].append(arrived)
@@ -153,7 +148,7 @@ async def _in_hand(game_id: str, request: Request) -> AsyncIterator[None]:
             del in_hand[game_id]
 
 
-InHand = Depends(_in_hand)
+InHand = Depends(_in_hand, scope="function")
 
 
 async def _cursor(

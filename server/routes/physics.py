@@ -61,7 +61,7 @@ def _batch(context: Context, command: Command) -> BatchAnswer:
     context.limits.count_shots(command.caller, len(request.shots))
     simulations.count(context, command, request.game, len(request.shots))
     context.metrics.simulated.inc(len(request.shots))
-    return physics.simulate_batch(request)
+    return physics.simulate_batch(request, context.physics.require_open)
 
 
 @router.post(

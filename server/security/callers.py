@@ -3,8 +3,9 @@
 import hmac
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Final
 
-from sqlalchemy import Connection, select
+from sqlalchemy import Connection, bindparam, select
 
 from server.errors import Forbidden, Unauthorized
 from server.security.tokens import digest, matches
@@ -82,9 +83,12 @@ def identify(connection: Connection, token: str | None, organiser_digest: str | 
         raise Unauthorized("no token; allowed: the header Authorization: Bearer TOKEN")
     if organiser_digest is not None and hmac.compare_digest(digest(token), organiser_digest):
         return Caller.organiser(token)
-    row = connection.execute(select(tokens).where(tokens.c.digest == digest(token))).one_or_none()
+    row = connection.execute(_BY_DIGEST, {"digest": digest(token)}).one_or_none()
     if row is None or row.revoked_at is not None or not matches(token, row.digest):
         raise Unauthorized("the token is not valid: unknown, rotated or revoked")
     if row.expires_at is not None and row.expires_at <= now:
         raise Unauthorized("the token is not valid any more: it has expired")
     return Caller(row.agent_id or row.id, token, frozenset(Scope(scope) for scope in row.scopes.split()))
+
+
+_BY_DIGEST: Final = select(tokens).where(tokens.c.digest == bindparam("digest"))

@@ -1,8 +1,9 @@
 """What a connection may do before there is a request: one that does not finish its headers in time is closed (408,
-whatever trickles in), and so is one too many from the same address (429).
+whatever trickles in), and so is one too many from the same address (429). And what it may do after one: whose answer
+is not being read is closed too.
 
-The server's framework has a timeout for connections that are idle between requests, none for headers that never end,
-and no bound on one caller's share of the connections.
+The server's framework has a timeout for connections that are idle between requests, none for headers that never end
+nor for answers that nobody reads, and no bound on one caller's share of the connections.
 """
 
 import asyncio
@@ -18,16 +19,25 @@ TOO_MANY = (
     b"content-length: 36\r\n\r\ntoo many connections of this address"
 )
 
+LEAST_READ = 64 * 1024
+"""Bytes."""
 
-def http_protocol(seconds: float, most: int) -> type[H11Protocol]:
+
+def http_protocol(header_seconds: float, unread_seconds: float, most: int) -> type[H11Protocol]:
     """uvicorn's protocol, bounded.
 
     Args:
-        seconds: from the connection, or from the first byte of a later request on it, to the end of the headers.
+        header_seconds: from the connection, or from the first byte of a later request on it, to the end of the headers.
+        unread_seconds: in which `LEAST_READ` bytes of an answer that waits must be read.
         most: connections that an address may have open at once; 0: any number.
     """
 
-    members = {"header_seconds": seconds, "most_of_an_address": most, "open_by_address": Counter()}
+    members = {
+        "header_seconds": header_seconds,
+        "unread_seconds": unread_seconds,
+        "most_of_an_address": most,
+        "open_by_address": Counter(),
+    }
     return type("Bounded", (_Bounded,), members)
 
 
@@ -35,9 +45,11 @@ class _Bounded(H11Protocol):
     """A connection whose headers have a deadline, one of its address's few."""
 
     header_seconds: ClassVar[float]
+    unread_seconds: ClassVar[float]
     most_of_an_address: ClassVar[int]
     open_by_address: ClassVar[Counter[str]]
     _deadline: asyncio.TimerHandle | None = None
+    _unread: asyncio.TimerHandle | None = None
     _address: str | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
@@ -62,11 +74,37 @@ class _Bounded(H11Protocol):
     def connection_lost(self, exc: Exception | None) -> None:
         """Nothing is awaited any more, and the address has a place again."""
         self._stop_waiting()
+        self._stop_watching()
         if self._address is not None:
             self.open_by_address[self._address] -= 1
             if not self.open_by_address[self._address]:
                 del self.open_by_address[self._address]
         super().connection_lost(exc)
+
+    def pause_writing(self) -> None:
+        """More is written than is being read."""
+        super().pause_writing()
+        self._await_reader()
+
+    def resume_writing(self) -> None:
+        """It was read."""
+        super().resume_writing()
+        self._stop_watching()
+
+    def _await_reader(self) -> None:
+        waiting = self.transport.get_write_buffer_size()
+        self._unread = self.loop.call_later(self.unread_seconds, self._require_read, waiting)
+
+    def _require_read(self, waiting: int) -> None:
+        if self.transport.get_write_buffer_size() > waiting - LEAST_READ:
+            self.transport.abort()
+        else:
+            self._await_reader()
+
+    def _stop_watching(self) -> None:
+        if self._unread is not None:
+            self._unread.cancel()
+            self._unread = None
 
     def _await_headers(self) -> None:
         self._deadline = self.loop.call_later(self.header_seconds, self._give_up)

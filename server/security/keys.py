@@ -31,12 +31,15 @@ def rotate(connection: Connection, now: int) -> str:
     return _insert(connection, now)
 
 
-def active(connection: Connection, now: int) -> SigningKey:
-    """The key that records are sealed with now."""
+def sealing(connection: Connection, now: int) -> tuple[SigningKey, str]:
+    """The key that records are sealed with now, and the time the seal bears.
+
+    Whoever made the key may have had a clock that was ahead: no seal is older than its key.
+    """
     ensure(connection, now)
     row = _active(connection)
     assert row is not None
-    return SigningKey(bytes(row.private_key))
+    return SigningKey(bytes(row.private_key)), time_text(max(now, row.valid_from))
 
 
 def published(connection: Connection) -> KeyList:

@@ -119,6 +119,7 @@ def _require_no_nul(content: object, place: tuple[str, ...]) -> None:
             _require_no_nul(value, (*place, str(index)))
 
 
+_KEEP: Final = insert(answers)
 _STORED: Final = select(answers).where(*(column == bindparam(column.name) for column in answers.primary_key))
 
 
@@ -151,7 +152,7 @@ def keep(connection: Connection, command: Command, answer: Answer) -> None:
         "body": answer.body,
         "created_at": command.arrived,
     }
-    connection.execute(insert(answers), row)
+    connection.execute(_KEEP, row)
 
 
 def once(connection: Connection, command: Command, act: Callable[[], Answer]) -> Answer:

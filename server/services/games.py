@@ -68,12 +68,10 @@ class TurnEnd:
     Attributes:
         charge: what it costs its player.
         move: the number of the move that ended it; None when it ended from outside.
-        simulated: the shots that its player declares to have simulated for it.
     """
 
     charge: Charge
     move: int | None = None
-    simulated: int = 0
 
 
 class Moved(Exception):
@@ -98,10 +96,16 @@ def advance(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
     return _store(writing, live, game, end, turn | {"head": chain.head})
 
 
-def end_from_outside(writing: Writing, live: LiveGame, reason: EndReason, loser: int | None) -> LiveGame:
-    """End a running game for a reason that is not on the table (R48); the running turn is charged."""
+def end_from_outside(
+    writing: Writing, live: LiveGame, reason: EndReason, loser: int | None, until: int | None = None
+) -> LiveGame:
+    """End a running game for a reason that is not on the table (R48).
+
+    The running turn is charged until now, or until a moment in the past when it was over; what follows begins now.
+    """
     ruling = live.rules.end(live.game, reason, loser)
-    return _finish(writing, live, ruling.game, TurnEnd(live.charge_until(writing.now)), Chain(live.row.head))
+    charge = live.charge_until(writing.now if until is None else until)
+    return _finish(writing, live, ruling.game, TurnEnd(charge), Chain(live.row.head))
 
 
 def abort_running(writing: Writing, match: Row[Any]) -> None:
@@ -121,9 +125,10 @@ def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
         entries += 1
     else:
         after_last_move[live.game.turn] = end.charge.charged_ns
-    simulated = None if live.match.simulations is None else _simulated(live, end)
+    simulated = None if live.match.simulations is None else (live.row.simulated_0, live.row.simulated_1)
     ending = chain.add(end_entry(entries, outcome, live.seeds, after_last_move, simulated))
-    seal = signed_seal(keys.active(writing.connection, writing.now), chain.head, keys.time_text(writing.now))
+    key, signed_at = keys.sealing(writing.connection, writing.now)
+    seal = signed_seal(key, chain.head, signed_at)
     values = {
         "status": ABORTED if aborted else FINISHED,
         "winner": outcome.winner,
@@ -177,25 +182,19 @@ def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, turn: dic
         "version": live.row.version + 1,
         f"used_{seat}": live.clocks.used_ns[seat] + charge.charged_ns,
         f"lag_{seat}": live.granted[seat] + charge.lag_ns,
-        f"simulated_{seat}": _simulated(live, end)[seat],
         f"present_{seat}": live.is_present[seat] or end.move is not None,
     } | turn
     seen = {f"seen_{name}": getattr(live.row, name) for name in _COMPARED}
     if writing.connection.execute(_IF_UNCHANGED, values | seen).rowcount != 1:
         raise Moved
     row = {"game_id": live.id, "seat": seat, "move": end.move, "measured": charge.measured_ns, "lag": charge.lag_ns}
-    writing.connection.execute(insert(charges), row | {"created_at": writing.now})
+    writing.connection.execute(_CHARGE, row | {"created_at": writing.now})
     return replace(live, row=replace(live.row, **values), game=game)
 
 
+_CHARGE: Final = insert(charges)
 _CLOCKED: Final = ("delivered", "available_at", "clock_from", "carried")
-_COUNTED: Final = ("simulated_0", "simulated_1", "present_0", "present_1")
-_COMPARED: Final = ("id", "version", *_CLOCKED, *_COUNTED)
-"""Columns by which a game is known to be as it was read: the rest changes with its version alone."""
+_COMPARED: Final = ("id", "version", *_CLOCKED, "present_0", "present_1")
+"""Columns by which a game is known to be as it was read: the rest changes with its version alone, but for the counters
+of simulated shots, which are added to and not written: whoever simulates bounces nobody's stroke."""
 _IF_UNCHANGED: Final = update(games).where(*(games.c[name] == bindparam(f"seen_{name}") for name in _COMPARED))
-
-
-def _simulated(live: LiveGame, end: TurnEnd) -> tuple[int, int]:
-    """Shots simulated in the game, by seat, with what the end of this turn declares."""
-    declared = (end.simulated, 0) if live.game.turn == 0 else (0, end.simulated)
-    return live.row.simulated_0 + declared[0], live.row.simulated_1 + declared[1]

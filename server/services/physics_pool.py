@@ -9,7 +9,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
-from server.errors import TooManyRequests
+from server.errors import Draining, TooManyRequests
 
 T = TypeVar("T")
 
@@ -26,6 +26,7 @@ class PhysicsPool:
         self._threads = threads
         self._pool = ThreadPoolExecutor(threads, "physics", initializer=_step_back)
         self._busy = 0
+        self._closed = False
 
     @property
     def busy(self) -> int:
@@ -42,8 +43,14 @@ class PhysicsPool:
         finally:
             self._busy -= 1
 
+    def require_open(self) -> None:
+        """Raise `Draining` once nobody waits for the work any more; long work asks now and then."""
+        if self._closed:
+            raise Draining("the server is shutting down; ask the next one")
+
     def close(self) -> None:
-        """Let the threads end when their work is done; what waits is dropped."""
+        """Let the threads end when they next ask, or are done; what waits is dropped."""
+        self._closed = True
         self._pool.shutdown(wait=False, cancel_futures=True)
 
 

@@ -1,6 +1,8 @@
 """The budget of simulated shots in a game: counted where the server simulates, believed where players declare."""
 
-from sqlalchemy import Connection, true, update
+from dataclasses import replace
+
+from sqlalchemy import Connection, case, select, true, update
 
 from server.errors import BudgetSpent, GameFinished
 from server.security.callers import Caller
@@ -37,6 +39,24 @@ def _count(connection: Connection, caller: Caller, game_id: str, shots: int) -> 
     if connection.execute(this.values({simulated: simulated + shots})).rowcount != 1:
         raise _spent(live, seat, shots)
     return COUNTED
+
+
+def declare(connection: Connection, live: LiveGame, seat: int, shots: int) -> LiveGame:
+    """Add what a player declares for a stroke, in the transaction that stores it; the game with its counters then.
+
+    Never refused: the stroke has been simulated, and what it met is not to be learnt from a refusal. Where shots were
+    counted since the budget was looked at, the rest of it is spent.
+    """
+    this, budget = games.c.id == live.id, live.match.simulations
+    if shots:
+        simulated = games.c[f"simulated_{seat}"]
+        total = simulated + shots
+        spent = total if budget is None else case((total > budget, budget), else_=total)
+        connection.execute(update(games).where(this).values({simulated: spent}))
+    elif budget is None:
+        return live
+    counters = connection.execute(select(games.c.simulated_0, games.c.simulated_1).where(this)).one()
+    return replace(live, row=replace(live.row, simulated_0=counters.simulated_0, simulated_1=counters.simulated_1))
 
 
 def require_left(live: LiveGame, seat: int, shots: int) -> None:

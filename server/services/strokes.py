@@ -6,8 +6,9 @@ game's seed and the stroke's index alone, so that a shot simulated twice is the 
 
 import contextlib
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any, Final
 
 from sqlalchemy import Connection, insert
 
@@ -77,13 +78,17 @@ def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command],
             return stored
         _require_turn(connection, live, seat, command)
     context.failpoint("shot-admitted")
-    asked, stroke = _played(live, lambda: read(command))
-    simulations.require_left(live, seat, asked.simulated)
+    with _told_why():
+        asked = read(command)
+        simulations.require_left(live, seat, asked.simulated)  # before any noise is drawn
+        stroke = play_stroke(live.rules, live.game, asked.action, live.seeds, live.fixture.noise)
+    end = games.TurnEnd(live.charge_of_action(command.arrived), games.next_move(live))
+    told = _Told.of(live, stroke, end)
     context.failpoint("shot-simulated")
-    end = games.TurnEnd(live.charge_of_action(command.arrived), games.next_move(live), asked.simulated)
     with context.writing() as writing:
         hold_match_of(writing.connection, game_id)
-        after, answer = _stored(writing, live, stroke, end)
+        live = simulations.declare(writing.connection, live, seat, asked.simulated)
+        after, answer = _stored(writing, live, stroke, end, told)
         keep(writing.connection, command, answer)
         context.failpoint("shot-kept")
     context.failpoint("shot-committed")
@@ -153,10 +158,11 @@ def _version(command: Command) -> int:
     return int(digits)
 
 
-def _played(live: LiveGame, read: Callable[[], _Asked]) -> tuple[_Asked, Stroke]:
+@contextlib.contextmanager
+def _told_why() -> Iterator[None]:
+    """What the referee and the physics refuse, as answers."""
     try:
-        asked = read()
-        return asked, play_stroke(live.rules, live.game, asked.action, live.seeds, live.fixture.noise)
+        yield
     except Refused as refused:
         raise errors.Refused([_fault(refusal) for refusal in refused.refusals]) from refused
     except PhysicsError as error:
@@ -174,22 +180,44 @@ def _fault(refusal: Refusal) -> Fault:
     )
 
 
-def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd) -> tuple[LiveGame, Answer]:
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """A stroke in words: all of it that does not depend on when it is stored, put together while others may write.
+
+    Attributes:
+        detail: as players are told. row: of `moves`.
+        chain: of the record, the stroke's line the last.
+    """
+
+    detail: StrokeDetail
+    row: dict[str, Any]
+    chain: Chain
+
+    @classmethod
+    def of(cls, live: LiveGame, stroke: Stroke, end: games.TurnEnd) -> "_Told":
+        number = games.next_move(live)
+        detail, chain = StrokeDetail.of(stroke, number), Chain(live.row.head)
+        row = {
+            "game_id": live.id,
+            "number": number,
+            "seat": stroke.seat,
+            "stroke": detail.model_dump(mode="json", exclude={"events"}),
+            "line": chain.add(stroke_entry(stroke, number, end.charge.charged_ns)),
+        }
+        return cls(detail, row, chain)
+
+
+def _stored(
+    writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd, told: _Told
+) -> tuple[LiveGame, Answer]:
     """Write the move, the game that follows and its clocks: the game as it is then, and the answer."""
-    number = games.next_move(live)
-    detail, chain = StrokeDetail.of(stroke, number), Chain(live.row.head)
-    line = chain.add(stroke_entry(stroke, number, end.charge.charged_ns))
-    live = games.advance(writing, live, stroke.game, end, chain)
+    live = games.advance(writing, live, stroke.game, end, told.chain)
     writing.context.failpoint("shot-advanced")
-    move = {
-        "game_id": live.id,
-        "number": number,
-        "seat": stroke.seat,
-        "stroke": detail.model_dump(mode="json", exclude={"events"}),
-        "line": line,
-    }
-    writing.connection.execute(insert(moves), move | {"created_at": writing.now})
+    writing.connection.execute(_MOVE, told.row | {"created_at": writing.now})
     writing.context.failpoint("shot-moved")
-    view = live.view_since((detail,), stroke.seat, writing.now)  # the player's last stroke is this one
-    message = StrokeAnswer(game=live.id, stroke=detail, view=view, clocks=view.clocks)
+    view = live.view_since((told.detail,), stroke.seat, writing.now)  # the player's last stroke is this one
+    message = StrokeAnswer(game=live.id, stroke=told.detail, view=view, clocks=view.clocks)
     return live, Answer.of(200, message, etag=f'"{live.row.version}"')
+
+
+_MOVE: Final = insert(moves)

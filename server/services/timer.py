@@ -4,7 +4,6 @@ import asyncio
 import contextlib
 import logging
 from collections.abc import AsyncIterator
-from dataclasses import replace
 from functools import partial
 
 from sqlalchemy import select
@@ -84,5 +83,5 @@ def _flag(context: Context, game_id: str, now: int) -> None:
         # the deadline of a turn that nobody ever fetched may come before its clock runs out
         timed_out = deadline >= turn_clock.running_turn(live).runs_out(live.row.clock_from)
         reason = EndReason.TIME_OUT if timed_out else EndReason.NO_SHOW
-        course.end_from_outside(replace(writing, now=deadline), live, reason, live.game.turn)
+        course.end_from_outside(writing, live, reason, live.game.turn, until=deadline)
     context.wakeups.notify(live.agents)

@@ -160,6 +160,22 @@ def test_a_batch_from_one_state():
             assert batch.pocket[k, ball] == (pocketed if pocketed >= 0 else -1)
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_batch_can_be_ended_from_outside(threads):
+    state = physics.rack(OPEN, "eight_ball", seed=1)
+    shots = np.array([[5.0, 200.0 + 0.5 * k, 10.0, 0.0, 0.0] for k in range(300)])
+    asked = []
+    batch = physics.simulate_batch(OPEN, state, shots, threads, check=lambda: asked.append(None))
+    assert len(asked) >= 300 / 64
+    assert batch.positions.tobytes() == physics.simulate_batch(OPEN, state, shots).positions.tobytes()
+
+    def end():
+        raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        physics.simulate_batch(OPEN, state, shots, threads, check=end)
+
+
 def test_absent_balls_in_a_batch():
     state = physics.TableState.from_positions({0: (0.5, 1.0), 9: (0.5, 0.5)})
     batch = physics.simulate_batch(OPEN, state, [[1.0, 90.0, 30.0, 0.0, 0.0]])

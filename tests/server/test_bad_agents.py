@@ -98,9 +98,6 @@ class Duel:
                 assert kept.get("shot") == stroke["shot"]
         return entries
 
-    def ledger(self):
-        return self.table.organiser.get(f"/v1/games/{self.table.game}/clocks").json()
-
 
 @pytest.fixture
 def duel(arena, table_at, script):
@@ -166,6 +163,32 @@ def test_one_whose_body_never_comes_is_not_waited_for(arena, duel):
     assert answer.startswith("HTTP/1.1 408 ")
     assert match.end() == (1, "time_out")
     other.conceded()
+
+
+def test_one_that_does_not_read_its_answers_loses_on_time_like_everybody(arena, duel):
+    """A stroke sent again behind an answer that nobody reads is answered, and holds no flag back."""
+    match = duel(seconds=3.0)
+    view = match.to_the_bad_one()
+    stroke = json.dumps({"shot": {"v": 3.0, "phi": 270.0, "theta": 5.0, "a": 0.0, "b": 0.0}}).encode()
+    assert send_raw(match.bad, view, stroke).status_code == 200
+    match.to_the_bad_one()
+    shots = [{"v": 1.0, "phi": 270.0, "theta": 10.0, "a": 0.0, "b": 0.0}] * 10_000
+    batch = json.dumps({"balls": {str(n): [0.1 + 0.06 * n, 1.7] for n in range(16)}, "shots": shots}).encode()
+    with socket.socket() as connection:
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        connection.connect(("127.0.0.1", arena.port))
+        connection.sendall(request(match.bad, "/v1/simulate/batch", batch))
+        connection.sendall(request(match.bad, f"/v1/games/{view['game']}/shots", stroke))
+        assert match.end() == (1, "time_out")
+
+
+def request(player, path, body):
+    """As `send_raw` sends it, as bytes."""
+    head = (
+        f'POST {path} HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nIf-Match: "1"\r\n'
+        f"Authorization: Bearer {player.token}\r\nIdempotency-Key: raw\r\nContent-Length: {len(body)}\r\n\r\n"
+    )
+    return head.encode() + body
 
 
 def test_one_that_sends_everything_many_times_plays_everything_once(duel):

@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import json
 import socket
 import threading
 import time
@@ -17,6 +18,7 @@ from server.security.rates import Rates
 from server.services.physics_pool import WAITING, PhysicsPool
 
 SCENE = {"balls": {"0": [0.5, 1.7]}, "shots": [{"v": 1.0, "phi": 270.0, "theta": 10.0, "a": 0.0, "b": 0.0}]}
+TCP_ESTABLISHED = 1
 
 
 # slow clients
@@ -96,6 +98,45 @@ def test_a_body_that_never_ends_is_cut_off(own_server):
     assert said.startswith(b"HTTP/1.1 408 ")
     assert b"slow_body" in said
     assert 0.4 < time.monotonic() - start < 10.0
+
+
+def simulations(token, shots):
+    """A request whose answer is of some 400 bytes a shot."""
+    body = json.dumps(SCENE | {"shots": SCENE["shots"] * shots}).encode()
+    head = f"POST /v1/simulate/batch HTTP/1.1\r\nhost: x\r\nauthorization: Bearer {token}\r\n"
+    return f"{head}content-type: application/json\r\ncontent-length: {len(body)}\r\n\r\n".encode() + body
+
+
+def unread(server, shots=10_000):
+    """A connection on which the server has more to say than anybody's buffers hold."""
+    token = server.request("POST", "/v1/agents", json={"name": "ann"}).json()["token"]
+    connection = socket.socket()
+    connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    connection.settimeout(30)
+    connection.connect(("127.0.0.1", server.port))
+    connection.sendall(simulations(token, shots) * 8)
+    return connection
+
+
+def test_an_answer_that_nobody_reads_is_given_up(own_server):
+    with unread(own_server(POOLIAD_UNREAD_SECONDS="0.5")) as connection:
+        start = time.monotonic()
+        while time.monotonic() < start + 20 and not closed(connection):
+            time.sleep(0.1)
+        assert closed(connection)
+
+
+def test_an_answer_that_is_read_slowly_is_not(own_server):
+    """More than 64 kB in half a second, for longer than that."""
+    with unread(own_server(POOLIAD_UNREAD_SECONDS="0.5")) as connection:
+        for _ in range(15):
+            time.sleep(0.1)
+            assert sum(len(connection.recv(4096)) for _ in range(16)) > 16 * 1024
+
+
+def closed(connection):
+    """Whether the other side has given the connection up, whatever there still is to read."""
+    return connection.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO) != TCP_ESTABLISHED
 
 
 # frequent clients

@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 import physics
+from referee.wire import BatchRequest
+from server.errors import Invalid
+from server.services import physics as service
 
 OVERLAP = {"0": [0.5, 0.5], "1": [0.51, 0.5]}
 OFF_TABLE = {"0": [5.0, 0.5]}
@@ -156,3 +159,48 @@ def test_a_bad_table_is_named_with_its_value(new_player, path, table, field, val
 def test_the_physics_needs_a_token(server):
     for path in ("/v1/simulate", "/v1/simulate/batch", "/v1/min-elevation"):
         assert server.request("POST", path, json={}).status_code == 401
+
+
+def test_a_trace_of_tens_of_thousands_of_events_is_refused_by_name(new_player):
+    """A row of balls that creep (tests/regressions): 46,908 events, 20 MB of JSON; without a trace it is answered."""
+    places = {11: 0.661810045775182, 0: 0.7189600457851819, 7: 0.776110045785183, 14: 0.833260045785183}
+    places |= {3: 0.890410046785183, 5: 0.947560046785183, 15: 1.004710046785283, 10: 0.604660045775181}
+    slow = {"mu_slide": 0.01, "mu_roll": 0.01, "mu_spin": 0.001, "mu_ball": 0.0, "e_ball": 0.8}
+    dead = dict.fromkeys(("cushion_parallel", "cushion_perpendicular", "cushion_spin"), 0.0)
+    body = {
+        "table": {"name": "olympiad", "cue_test": False} | slow | dead,
+        "balls": {str(ball): [0.19023233049865176, y] for ball, y in places.items()},
+        "shot": {"v": 10.0, "phi": -90.0, "theta": 70.0, "a": 0.0, "b": 0.0},
+    }
+    player = new_player()
+    response = player.request("POST", "/v1/simulate", json=body)
+    assert response.status_code == 422
+    fault = response.json()["errors"][0]
+    assert fault["field"] == "trace"
+    assert "46908 events" in fault["allowed"]
+    answer = player.request("POST", "/v1/simulate", json=body | {"trace": False}).json()
+    assert (answer["n_events"], answer["status"], answer["events"]) == (46908, "at_rest", None)
+
+
+def batch(shots):
+    return BatchRequest.model_validate({"balls": BALLS, "shots": [SHOT] * shots})
+
+
+def test_a_batch_that_takes_too_long_is_ended(monkeypatch):
+    monkeypatch.setattr(service, "LONGEST_SECONDS", 0.0)
+    with pytest.raises(Invalid) as refused:
+        service.simulate_batch(batch(200))
+    assert refused.value.extensions["field"] == "shots"
+
+
+def test_a_batch_that_nobody_waits_for_any_more_is_ended():
+    asked = []
+
+    def go_on():
+        asked.append(None)
+        if len(asked) == 3:
+            raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        service.simulate_batch(batch(1000), go_on)
+    assert len(asked) == 3

@@ -128,10 +128,10 @@ def test_who_plays_without_fetching_the_turn_has_no_more_time_than_others(contex
 def test_a_game_that_cannot_be_ended_does_not_keep_the_others_running(context, monkeypatch, caplog):
     broken, whole = new_game(context, "ann", "bob"), new_game(context, "cat", "dan")
 
-    def end(writing, live, reason, loser):
+    def end(writing, live, *how, **when):
         if live.id == broken[0]:
             raise RuntimeError("its row is damaged")
-        return real(writing, live, reason, loser)
+        return real(writing, live, *how, **when)
 
     real = timer.course.end_from_outside
     monkeypatch.setattr(timer.course, "end_from_outside", end)

@@ -1,6 +1,7 @@
 """A server's services over a real database file, at a time that moves when it is told to."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +47,18 @@ class Stage:
     def close(self) -> None:
         self.context.database.dispose()
 
+    def meanwhile(self, point: str, act: Callable[[], object]) -> list[str]:
+        """Do something, once, when a stroke comes to a failpoint; the points come to from now on."""
+        reached: list[str] = []
+
+        def reach(name: str) -> None:
+            reached.append(name)
+            if reached.count(point) == 1 and name == point:
+                act()
+
+        object.__setattr__(self.context, "failpoint", reach)
+        return reached
+
     def game(self, *names: str, **terms: Any) -> "Seats":
         """A running game between two new agents."""
         registered = [agents.register(self.context, AgentRequest(name=name)) for name in names]
@@ -84,6 +97,11 @@ class Seats:
         assert message is not None
         assert message["type"] == "turn"
         return dict(message["view"])
+
+    def shoot(self, shot: dict[str, Any], key: str = "s", **members: Any) -> dict[str, Any]:
+        """The breaker's first stroke; the answer."""
+        command = self.stage.command(self.mover, json.dumps({"shot": shot} | members).encode(), key, version=1)
+        return dict(json.loads(strokes.shoot(self.stage.context, self.id, lambda _: command).body))
 
     def concede(self) -> dict[str, Any]:
         """The breaker gives up, which ends the turn; the answer."""
