@@ -15,7 +15,7 @@ router = APIRouter(prefix="/v1/matches", tags=["matches"])
 
 @router.post(
     "",
-    **describe(Forbidden, body=MatchRequest, success={201: MatchView}, key=True),
+    **describe(Forbidden, WrongStatus, body=MatchRequest, success={201: MatchView}, key=True),
     summary="Make a match, or challenge",
 )
 def create(context: Server, command: Sent) -> Response:

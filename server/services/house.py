@@ -10,14 +10,15 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from pydantic import TypeAdapter, ValidationError
-from sqlalchemy import Connection, Row, delete, func, insert, or_, select, update
+from sqlalchemy import Connection, Row, Select, delete, insert, or_, select, update
 
 from referee.play import nanoseconds
 from referee.wire import MatchRequest
 from referee.wire.agents import AgentName
-from server.errors import SettingsError, invalid_field
+from server.errors import SettingsError, WrongStatus, invalid_field
 from server.services.agents import renewed_token
 from server.services.context import Context, Writing
+from server.services.live import hold_match
 from server.store.locks import only_one
 from server.store.tables import agents, house, matches
 
@@ -120,6 +121,17 @@ def require_terms(writing: Writing, request: MatchRequest, challenger: str | Non
         raise invalid_field("clock.seconds", request.clock.seconds, f"at most {LONGEST_CLOCK:g} against a house bot")
 
 
+def require_no_other(writing: Writing, request: MatchRequest, challenger: str | None) -> None:
+    """Raise `WrongStatus` while another challenge of the same agent to the same house bot waits for a place."""
+    if challenger is None or not is_challenged(writing, request, challenger):
+        return
+    bot = request.agents[1 - request.agents.index(challenger)]
+    _hold_places(writing, bot)
+    other = writing.connection.scalar(_challenges(bot).where(matches.c.challenger == challenger).limit(1))
+    if other is not None:
+        raise WrongStatus(f"the challenge {other} to the same house bot waits for a place; allowed: one, or abort it")
+
+
 def has_place(writing: Writing, match: Row[Any]) -> bool:
     """Whether the challenged agent is a house bot that takes the challenge now.
 
@@ -128,23 +140,52 @@ def has_place(writing: Writing, match: Row[Any]) -> bool:
     bot = match.seat_1 if match.challenger == match.seat_0 else match.seat_0
     if not _is_house(writing.connection, bot):
         return False
+    _hold_places(writing, bot)
+    opponents = _opponents(writing.connection, bot)
+    return len(opponents) < writing.context.settings.house_places and match.challenger not in opponents
+
+
+def challenged(context: Context) -> list[str]:
+    """The house bots that have a place for a challenge that waits."""
+    with context.database.reading() as connection:
+        bots = connection.scalars(select(agents.c.id).where(agents.c.house)).all()
+        return [bot for bot in bots if _oldest_waiting(context, connection, bot) is not None]
+
+
+def take_waiting(writing: Writing, bot: str) -> Row[Any] | None:
+    """The oldest challenge that the bot has a place for, to be begun by this transaction; None when there is none."""
+    _hold_places(writing, bot)
+    match_id = _oldest_waiting(writing.context, writing.connection, bot)
+    if match_id is None:
+        return None
+    match = hold_match(writing.connection, match_id)
+    return match if match.status == "challenged" else None
+
+
+def _oldest_waiting(context: Context, connection: Connection, bot: str) -> str | None:
+    opponents = _opponents(connection, bot)
+    if len(opponents) >= context.settings.house_places:
+        return None
+    of_others = _challenges(bot).where(matches.c.challenger.not_in(opponents))
+    return connection.scalar(of_others.order_by(matches.c.created_at, matches.c.id).limit(1))
+
+
+def _challenges(bot: str) -> Select[str]:
+    """The challenges to a bot that are not accepted yet."""
+    to_it = _plays(bot) & (matches.c.challenger != bot)
+    return select(matches.c.id).where(matches.c.status == "challenged", to_it)
+
+
+def _opponents(connection: Connection, bot: str) -> list[str]:
+    """Whom a bot plays now."""
+    playing = select(matches.c.seat_0, matches.c.seat_1).where(matches.c.status.in_(("opening", "running")))
+    rows = connection.execute(playing.where(_plays(bot)))
+    return [row.seat_1 if row.seat_0 == bot else row.seat_0 for row in rows]
+
+
+def _hold_places(writing: Writing, bot: str) -> None:
+    """Nobody else gives places of this bot away until the transaction ends."""
     only_one(writing.connection, f"places of {bot}")
-    busy = matches.c.status.in_(("opening", "running"))
-    running = select(func.count()).select_from(matches).where(busy, _plays(bot))
-    taken = writing.connection.scalar(running) or 0
-    with_it = writing.connection.scalar(running.where(_plays(match.challenger))) or 0
-    return taken < writing.context.settings.house_places and with_it == 0
-
-
-def waiting(connection: Connection) -> list[Row[Any]]:
-    """The challenges to house bots that are not accepted yet, the oldest first."""
-    bots = select(agents.c.id).where(agents.c.house)
-    challenged = or_(
-        (matches.c.challenger == matches.c.seat_0) & matches.c.seat_1.in_(bots),
-        (matches.c.challenger == matches.c.seat_1) & matches.c.seat_0.in_(bots),
-    )
-    query = select(matches).where(matches.c.status == "challenged", challenged).order_by(matches.c.created_at)
-    return list(connection.execute(query.limit(100)).all())
 
 
 def _is_house(connection: Connection, agent_id: str) -> bool:

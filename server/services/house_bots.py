@@ -16,9 +16,7 @@ from server.errors import Unavailable
 from server.services import house
 from server.services.context import Context
 from server.services.house import HouseBot
-from server.services.live import hold_match
-from server.services.openings import CHALLENGED, begin_or_wait
-from server.store.locks import only_one
+from server.services.openings import begin_or_wait
 
 log = logging.getLogger("pooliad.server.house")
 
@@ -121,19 +119,20 @@ class House:
 
 
 def accept_waiting(context: Context) -> None:
-    """Begin the matches that wait for a house bot with a free place."""
-    with context.database.reading() as connection:
-        if not house.waiting(connection):
-            return
-    players: list[str] = []
+    """Begin the matches that wait for a house bot with a free place, each in a transaction of its own."""
+    for bot in house.challenged(context):
+        while _accept_next(context, bot):
+            pass
+
+
+def _accept_next(context: Context, bot: str) -> bool:
     with context.writing() as writing:
-        only_one(writing.connection, "waiting challenges")
-        for seen in house.waiting(writing.connection):
-            match = hold_match(writing.connection, seen.id)
-            if match.status == CHALLENGED and house.has_place(writing, match):
-                begin_or_wait(writing, match)
-                players += match.seat_0, match.seat_1
-    context.wakeups.notify(players)
+        match = house.take_waiting(writing, bot)
+        if match is None:
+            return False
+        begin_or_wait(writing, match)
+        writing.woken.update((match.seat_0, match.seat_1))
+        return True
 
 
 @contextlib.asynccontextmanager

@@ -115,6 +115,7 @@ def _created(writing: Writing, command: Command) -> Answer:
     _require_start(request)
     challenger = None if command.caller.is_organiser else command.caller.id
     house.require_terms(writing, request, challenger)
+    house.require_no_other(writing, request, challenger)
     match = insert_match(writing, request, challenger)
     if match.challenger is None or house.has_place(writing, match):
         match = begin_or_wait(writing, match)

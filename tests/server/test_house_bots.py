@@ -34,8 +34,8 @@ def bot_of(server):
     return bot
 
 
-def challenge(player, bot, **terms):
-    return player.post("/v1/matches", {"agents": [player.id, bot["id"]]} | terms)
+def challenge(player, bot, key=None, **terms):
+    return player.post("/v1/matches", {"agents": [player.id, bot["id"]]} | terms, key=key)
 
 
 def bot_processes(server):
@@ -142,6 +142,35 @@ def test_a_bot_without_a_place_accepts_when_one_is_free(house_server, player_at)
     playing_alone(first, playing["id"])
     until(lambda: second.get(f"/v1/matches/{waiting['id']}").json()["status"] == "running")
     assert first.get(f"/v1/matches/{again['id']}").json()["status"] == "challenged"
+
+
+def test_one_challenge_of_an_agent_waits_for_a_bot(house_server, player_at):
+    """An agent that plays a bot could lay so many challenges before it that nobody else's was looked at."""
+    server = house_server(POOLIAD_HOUSE_PLACES="1")
+    bot, player = bot_of(server), player_at(server)
+    assert challenge(player, bot).json()["status"] == "running"
+    waiting = challenge(player, bot, key="second").json()
+    assert waiting["status"] == "challenged"
+    refused = challenge(player, bot)
+    assert (refused.status_code, refused.json()["code"]) == (409, "wrong_status")
+    assert waiting["id"] in refused.json()["detail"]
+    assert challenge(player, bot, key="second").json()["id"] == waiting["id"]
+    assert player.post(f"/v1/matches/{waiting['id']}/abort").status_code == 200
+    assert challenge(player, bot).status_code == 201
+
+
+def test_those_who_wait_for_one_bot_hide_nobody_who_waits_for_another(house_server, player_at, organiser_at):
+    """The oldest hundred challenges were looked at, whomever they were for."""
+    server = house_server(POOLIAD_HOUSE_BOTS="random;other=random", POOLIAD_HOUSE_PLACES="1")
+    listed = server.request("GET", "/v1/agents", params={"house": "true"}).json()["agents"]
+    wanted, other = sorted(listed, key=lambda bot: bot["name"] == "other")
+    for _ in range(102):
+        challenge(player_at(server), wanted)
+    playing, waiting = (challenge(player_at(server), other).json() for _ in range(2))
+    organiser = organiser_at(server)
+    assert (playing["status"], waiting["status"]) == ("running", "challenged")
+    organiser.post(f"/v1/matches/{playing['id']}/abort")
+    until(lambda: organiser.get(f"/v1/matches/{waiting['id']}").json()["status"] == "running", 30)
 
 
 @pytest.mark.parametrize(
