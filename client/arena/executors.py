@@ -5,17 +5,15 @@ pairs to have under way, and what to do when workers die under their work.
 """
 
 import contextlib
-import ctypes
 import multiprocessing
 import os
 import signal
-import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, Protocol
 
-from client.arena.confine import PR_SET_PDEATHSIG
+from client.arena.confine import end_with_parent
 from client.arena.directory import EventError
 from client.arena.serving import find_here
 from client.arena.tasks import PairDone, PairTask, play_pair
@@ -184,10 +182,7 @@ def cores() -> int:
 def start_worker(parent: int) -> None:
     """What a worker process does first: end with its parent, leave Ctrl-C to it, find the user's modules."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if sys.platform == "linux":
-        ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
-        if os.getppid() != parent:  # it died before the line above
-            os._exit(1)
+    end_with_parent(parent, signal.SIGKILL)
     find_here()
 
 

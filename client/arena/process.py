@@ -6,13 +6,13 @@ import os
 import select
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from client.adapters.stdio import LOGS
+from client.arena.confine import confined
 from client.arena.cores import CoreLease
 from client.arena.hosting import Hosting
 from referee import Action, EndReason, SimulationBudget
@@ -30,7 +30,6 @@ NEWS_SECONDS = 1.0
 """How long it may take to read news that needs no answer."""
 LOOK_EVERY = 0.25
 """Seconds between looks whether a process that is silent still runs."""
-CONFINE = Path(__file__).with_name("confine.py")
 
 
 class ProcessSeat:
@@ -122,15 +121,15 @@ class ProcessSeat:
 
     def _started(self) -> subprocess.Popen[bytes]:
         memory = self._hosting.memory_mb
-        limits = {
-            "memory": None if memory is None else memory * 2**20,
-            "cpus": self._lease.cpus,
-            "file": LARGEST_FILE,
-            "parent": os.getpid(),
-        }
+        command = confined(
+            self._command,
+            memory=None if memory is None else memory * 2**20,
+            file=LARGEST_FILE,
+            cpus=self._lease.cpus,
+        )
         with self._log.open("ab") if self._log else open(os.devnull, "wb") as sink:  # noqa: PTH123
             process = subprocess.Popen(
-                [sys.executable, "-I", "-S", str(CONFINE), json.dumps(limits), *self._command],
+                command,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=sink,

@@ -61,6 +61,8 @@ def check(
 
 def _command(name: str | None, command: str | None) -> list[str]:
     """What starts the agent; leaves the command when there is no such agent."""
+    import shutil
+
     from client.cli.players import load_player
 
     if (name is None) == (command is None):
@@ -72,7 +74,11 @@ def _command(name: str | None, command: str | None) -> list[str]:
         line = shlex.split(command or "")
     except ValueError as error:
         fail(f"--command is {command!r}: {error}", USAGE)
-    return line or fail("--command is empty", USAGE)
+    if not line:
+        fail("--command is empty", USAGE)
+    if shutil.which(line[0]) is None:
+        fail(f"--command is {command!r}: {line[0]!r} is no program that can be run here", USAGE)
+    return line
 
 
 def _situations(only: list[str] | None) -> "list[Situation]":

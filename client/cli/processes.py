@@ -5,19 +5,17 @@ the kernel also ends them if the command is killed outright.
 """
 
 import contextlib
-import ctypes
 import os
 import signal
 import subprocess
-import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import FrameType
 
+from client.arena.confine import confined
+
 PATIENCE = 10.0
 """Seconds from SIGTERM to SIGKILL; a server closes its database in far less."""
-PR_SET_PDEATHSIG = 1
-"""Linux prctl: the signal to receive when the parent dies."""
 
 
 class Child:
@@ -28,12 +26,11 @@ class Child:
         self.log = log
         with log.open("wb") as sink:
             self._process = subprocess.Popen(
-                list(command),
+                confined(command, orphaned=signal.SIGTERM),
                 stdin=subprocess.DEVNULL,
                 stdout=sink,
                 stderr=subprocess.STDOUT,
                 env=os.environ | environment,
-                preexec_fn=_die_with_parent(),
             )
 
     @property
@@ -88,15 +85,3 @@ def termination_as_exception() -> Iterator[None]:
     finally:
         for each in ours:
             signal.signal(each, signal.SIG_DFL)
-
-
-def _die_with_parent() -> Callable[[], None] | None:
-    """What a child runs first, to get SIGTERM should this process be killed; None without Linux."""
-    if sys.platform != "linux":
-        return None
-    prctl = ctypes.CDLL(None, use_errno=True).prctl
-
-    def ask() -> None:
-        prctl(PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
-
-    return ask

@@ -5,12 +5,13 @@ import datetime
 import json
 import math
 import os
+import signal
 import subprocess
 import sys
 
 import pytest
 
-from client.arena import confine
+from client.arena.confine import confined
 from client.arena.cores import CoreLease
 from client.arena.directory import EventError
 from client.arena.hosting import Hosting, Kind
@@ -132,15 +133,23 @@ def test_no_two_leases_share_a_core():
             lease.release()
 
 
-def confined(script, memory=None):
-    limits = {"memory": memory, "cpus": sorted(os.sched_getaffinity(0))[:1], "file": 1000, "parent": os.getpid()}
-    command = [sys.executable, "-I", "-S", confine.__file__, json.dumps(limits), sys.executable, "-c", script]
+def run_confined(script, memory=None):
+    core = sorted(os.sched_getaffinity(0))[:1]
+    command = confined([sys.executable, "-c", script], memory=memory, file=1000, cpus=core)
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 def test_limits_hold_in_the_process():
-    said = confined(
+    said = run_confined(
         "import os, resource; print(len(os.sched_getaffinity(0)), resource.getrlimit(resource.RLIMIT_FSIZE)[0])"
     )
     assert said.stdout.split() == ["1", "1000"]
-    assert "MemoryError" in confined("x = bytes(10**9)", memory=500 * 2**20).stderr
+    assert "MemoryError" in run_confined("x = bytes(10**9)", memory=500 * 2**20).stderr
+
+
+@pytest.mark.parametrize("name", ["PIPE", "XFSZ"])
+def test_a_confined_command_has_the_signals_of_any_other(name):
+    """Seen: what Python ignores for itself stayed ignored in the command it became, so a shell's pipes did not end."""
+    command = ["sh", "-c", f"kill -s {name} $$; echo still here"]
+    said = subprocess.run(confined(command), capture_output=True, text=True, check=False)
+    assert (said.returncode, said.stdout) == (-signal.Signals[f"SIG{name}"], "")

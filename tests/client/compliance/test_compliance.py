@@ -109,6 +109,7 @@ def test_the_command_says_what_is_wrong_and_leaves_with_one(server_installed, tm
         ["random", "--only", "a draw"],
         ["--command", '"'],
         ["--command", ""],
+        ["--command", "./nowhere"],
     ],
 )
 def test_usage_is_explained(options):
