@@ -19,6 +19,7 @@ from referee.wire import (
     BatchAnswer,
     ClockLedger,
     DisqualifyRequest,
+    EntriesPage,
     GameAnswer,
     InvitationRequest,
     Invitations,
@@ -162,6 +163,10 @@ class AsyncPooliad:
     async def standings(self, tournament_id: str) -> StandingsView:
         """How a tournament's entrants stand."""
         return await self._send(calls.standings(tournament_id))
+
+    async def tournament_entries(self, tournament_id: str, cursor: int = 0) -> EntriesPage:
+        """One page of results and decisions in their order, after the entry with the number `cursor` (organiser)."""
+        return await self._send(calls.tournament_entries(tournament_id, cursor))
 
     async def direct_tournament(
         self, tournament_id: str, act: calls.Act, request: VoidRequest | DisqualifyRequest | None = None

@@ -28,6 +28,7 @@ from referee.wire import (
     ClockLedger,
     DecisionRequest,
     DisqualifyRequest,
+    EntriesPage,
     ForfeitRequest,
     GameAnswer,
     GameOver,
@@ -186,6 +187,11 @@ def tournament(tournament_id: str) -> Call[TournamentView]:
 def standings(tournament_id: str) -> Call[StandingsView]:
     """How a tournament's entrants stand."""
     return Call("GET", f"/v1/tournaments/{tournament_id}/standings", _reader(StandingsView))
+
+
+def tournament_entries(tournament_id: str, cursor: int = 0) -> Call[EntriesPage]:
+    """One page of what was noted about a tournament, after the entry with the number ``cursor``."""
+    return Call("GET", f"/v1/tournaments/{tournament_id}/entries", _reader(EntriesPage), params={"cursor": str(cursor)})
 
 
 def direct_tournament(

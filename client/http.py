@@ -19,6 +19,7 @@ from referee.wire import (
     BatchAnswer,
     ClockLedger,
     DisqualifyRequest,
+    EntriesPage,
     GameAnswer,
     InvitationRequest,
     Invitations,
@@ -165,6 +166,10 @@ class Pooliad:
     def standings(self, tournament_id: str) -> StandingsView:
         """How a tournament's entrants stand."""
         return self._send(calls.standings(tournament_id))
+
+    def tournament_entries(self, tournament_id: str, cursor: int = 0) -> EntriesPage:
+        """One page of results and decisions in their order, after the entry with the number `cursor` (organiser)."""
+        return self._send(calls.tournament_entries(tournament_id, cursor))
 
     def direct_tournament(
         self, tournament_id: str, act: calls.Act, request: VoidRequest | DisqualifyRequest | None = None

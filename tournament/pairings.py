@@ -45,6 +45,11 @@ class Pair:
         }
 
 
+def game_id(pair: str, leg: int, attempt: int) -> str:
+    """``"r0-m2-p1-g0"``, and ``"-a1"`` after it when it is played again."""
+    return f"{pair}-g{leg}" + (f"-a{attempt}" if attempt else "")
+
+
 @dataclass(frozen=True, slots=True)
 class Due:
     """A game to be played.
@@ -64,8 +69,8 @@ class Due:
 
     @property
     def id(self) -> str:
-        """``"r0-m2-p1-g0"``, and ``"-a1"`` after it when it is played again."""
-        return f"{self.pair.id}-g{self.leg}" + (f"-a{self.attempt}" if self.attempt else "")
+        """Of the game."""
+        return game_id(self.pair.id, self.leg, self.attempt)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ from referee.game import EndReason
 from referee.play.noise import LEVEL_MAX
 from tournament.checks import Checker
 from tournament.errors import InvalidResult
+from tournament.pairings import game_id
 
 LONGEST_REFERENCE = 2048
 MOST = 10**12
@@ -66,6 +67,11 @@ class GameResult:
             _check.fail("players", self.players, "two different names")
         if self.reason is EndReason.ABORTED and self.winner is not None:
             _check.fail("winner", self.winner, "nobody wins an aborted game")
+
+    @property
+    def id(self) -> str:
+        """Of the game."""
+        return game_id(self.pair, self.leg, self.attempt)
 
     @property
     def counts(self) -> bool:

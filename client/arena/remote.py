@@ -2,10 +2,11 @@
 
 import contextlib
 import json
+import re
 import secrets
 import threading
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from client.arena.directory import EventDirectory, EventError, write_whole
 from client.arena.hosting import Hosting, Kind
@@ -15,12 +16,11 @@ from client.arena.terms import Terms
 from client.errors import ApiError, NameTaken, PooliadError
 from client.http import Pooliad
 from client.retry import Retry
-from referee import Action, SimulationBudget
+from referee import Action, Outcome, SimulationBudget
 from referee.play.local import Lost
 from referee.record import read_record
-from referee.wire import EntryView, GameOver, TournamentGame, TournamentRequest, TournamentView, Turn, View
-from tournament import Due, Event
-from tournament.from_record import result_of
+from referee.wire import GameOver, NumberedEntry, TournamentRequest, Turn, View
+from tournament import Event, GameResult, TournamentError
 from tournament.ledger import Ledger
 
 PLACE = "server.json"
@@ -30,8 +30,9 @@ POLL = 2.0
 """Seconds a hosted entrant's long poll waits: so long it may take to leave."""
 PAUSE = 1.0
 """Seconds between tries of an entrant whose connection fails."""
-ACTS = ("void", "disqualify", "pause", "go_on", "abort")
-"""Decisions that the journal repeats."""
+NUMBER = "number"
+"""Field of a journal's entry that was taken over: its number at the server."""
+_RECORD = re.compile(r"/v1/games/([^/]+)/record")
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +67,7 @@ class RemoteRunner:
         self._observer = observer
         self._journal = directory.journal
         self._ledger = Ledger(Event(self._terms.spec))
+        self._taken = 0
         self._stop = threading.Event()
 
     def run(self) -> Ledger:
@@ -78,7 +80,7 @@ class RemoteRunner:
         with self._directory.alone(), Pooliad(self._url, self._token) as server:
             self._journal.append("begun")
             place = self._place(server)
-            self._ledger = self._ledger.after(self._journal.new())
+            self._look()
             if server.tournament(place.tournament).status in ("created", "paused"):
                 server.direct_tournament(place.tournament, "start")
             with self._players(server, place):
@@ -142,40 +144,52 @@ class RemoteRunner:
         """Take over results and decisions until the event rests."""
         while True:
             view = server.tournament(place.tournament)
-            self._take(server, view)
+            self._take(server, place)
             running = sum(game.status == "running" for game in view.played)
             self._observer(self._ledger, running)
             if view.status in ("finished", "aborted") or (view.status == "paused" and running == 0):
                 return
             self._stop.wait(LOOK_EVERY)
 
-    def _take(self, server: Pooliad, view: TournamentView) -> None:
-        """Results first: a decision may be about one of them."""
-        for game in view.played:
-            if game.match is not None and game.status in ("finished", "void", "aborted"):
-                self._keep(server, game)
-        seen = sum(entry.kind in ACTS for entry in self._directory.journal.new())
-        for entry in [entry for entry in view.log if entry.kind in ACTS][seen:]:
-            self._repeat(entry)
-        self._ledger = self._ledger.after(self._journal.new())
+    def _take(self, server: Pooliad, place: Place) -> None:
+        """Put the server's entries that are new into the journal, one after the other as the server has them."""
+        while True:
+            page = server.tournament_entries(place.tournament, self._taken)
+            for entry in page.entries:
+                self._keep(server, entry)
+            self._look()
+            if page.next_cursor is None:
+                return
 
-    def _repeat(self, entry: EntryView) -> None:
-        fields = {name: value for name, value in entry.fields.items() if name not in ("kind", "at", "by")}
-        self._journal.append(entry.kind, by=entry.by, **fields)
+    def _look(self) -> None:
+        """Take in what the journal says that is new."""
+        entries = list(self._journal.new())
+        self._taken = max([self._taken, *(entry.fields.get(NUMBER, 0) for entry in entries)])
+        try:
+            self._ledger = self._ledger.after(entries)
+        except TournamentError as error:
+            raise EventError(f"{self._journal.path} does not fit the event: {error}") from None
 
-    def _keep(self, server: Pooliad, game: TournamentGame) -> None:
-        """Fetch a finished game's record, and put its result into the journal."""
-        pair = next(pair for pair in self._ledger.event.plan.pairs if pair.id == game.pair)
-        due = Due(pair, game.leg, game.attempt)
-        path = self._directory.games / f"{due.id}.jsonl"
-        if path.exists() or game.match is None:
-            return
-        (played,) = server.match(game.match).played
-        record = server.record(played.id)
-        result = result_of(read_record(record.decode().splitlines()), due, game.simulated or (0, 0))
+    def _keep(self, server: Pooliad, entry: NumberedEntry) -> None:
+        """Journal an entry; a game's record is put in its place first, so that a result in the journal has one."""
+        fields = entry.fields
+        if entry.kind == "game":
+            fields = fields | {"result": self._fetched(server, GameResult.from_dict(fields["result"])).to_dict()}
+        self._journal.append(entry.kind, **{NUMBER: entry.number}, **(fields | {"by": entry.by}))
+
+    def _fetched(self, server: Pooliad, result: GameResult) -> GameResult:
+        """The result with its record in this directory."""
+        found = _RECORD.fullmatch(result.record)
+        if found is None:
+            raise EventError(f"{result.id}: record = {result.record!r}: must be /v1/games/ID/record")
+        record = server.record(found[1])
+        outcome = Outcome.from_dict(read_record(record.decode().splitlines()).end["outcome"])
+        if (outcome.winner, outcome.reason) != (result.winner, result.reason):
+            said, told = (f"{each.reason.value} (winner: {each.winner})" for each in (outcome, result))
+            raise EventError(f"{result.id} ended by {said} in its record, by {told} in the event")
+        path = self._directory.games / f"{result.id}.jsonl"
         write_whole(path, record)
-        self._journal.append("game", result=result.to_dict(), match=game.match)
-        self._ledger = self._ledger.after(self._journal.new())
+        return replace(result, record=f"games/{path.name}")
 
     def rests(self, seconds: float = 0.0) -> bool:
         """Whether the entrants are to leave, now or within ``seconds``."""

@@ -48,7 +48,9 @@ from referee.wire.terms import BudgetView, ClockTerms, ClockView, NoiseTerms, No
 from referee.wire.tokens import InvitationRequest, Invitations, TokenList, TokenRequest, TokenSecret, TokenView
 from referee.wire.tournaments import (
     DisqualifyRequest,
+    EntriesPage,
     EntryView,
+    NumberedEntry,
     RatingView,
     SequentialTestView,
     StandingsView,
@@ -87,6 +89,7 @@ __all__ = [
     "ClockView",
     "DecisionRequest",
     "DisqualifyRequest",
+    "EntriesPage",
     "EntryView",
     "EventView",
     "EvidenceView",
@@ -110,6 +113,7 @@ __all__ = [
     "MinElevationRequest",
     "NoiseTerms",
     "NoiseView",
+    "NumberedEntry",
     "OutcomeView",
     "Pocketed",
     "Position",

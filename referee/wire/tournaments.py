@@ -72,6 +72,27 @@ class EntryView(Message):
     fields: dict[str, Any]
 
 
+class NumberedEntry(EntryView):
+    """An entry in its place.
+
+    Attributes:
+        number: grows from entry to entry; as a ``cursor`` it leads to those that came after.
+        kind: those of ``EntryView``, and ``game``: a result, in ``fields["result"]``.
+    """
+
+    number: Integer
+
+
+class EntriesPage(Message):
+    """``GET /v1/tournaments/{id}/entries``: results and decisions in the order in which they were noted.
+
+    How an event stands follows from its terms and its entries alone (``tournament.ledger``).
+    """
+
+    entries: tuple[NumberedEntry, ...]
+    next_cursor: str | None = None
+
+
 class TournamentGame(Message):
     """A game of an event.
 

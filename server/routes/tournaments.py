@@ -6,6 +6,7 @@ from fastapi import APIRouter, Query, Response
 
 from referee.wire import (
     DisqualifyRequest,
+    EntriesPage,
     StandingsView,
     TournamentList,
     TournamentRequest,
@@ -13,7 +14,7 @@ from referee.wire import (
     VoidRequest,
 )
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
-from server.routes.dependencies import ANYBODY, Cursor, Limit, Search, Sent, Server, respond
+from server.routes.dependencies import ANYBODY, Authenticated, Cursor, Limit, Search, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import events, tournaments
 
@@ -70,6 +71,14 @@ def one(tournament_id: str, context: Server) -> TournamentView:
 def standings(tournament_id: str, context: Server) -> StandingsView:
     """The best first."""
     return tournaments.standings(context, tournament_id)
+
+
+@router.get(
+    "/{tournament_id}/entries", **describe(Forbidden, Invalid, NotFound), summary="What was noted about a tournament"
+)
+def entries(tournament_id: str, context: Server, caller: Authenticated, after: Cursor, limit: Limit) -> EntriesPage:
+    """Results and decisions in their order, after the entry whose number is the cursor. For organisers."""
+    return tournaments.entries(context, tournament_id, caller, after, limit)
 
 
 @router.post(

@@ -67,6 +67,11 @@ def decisions(connection: Connection, tournament_id: str) -> list[Row[Any]]:
     return _entries(connection, tournament_id, tournament_entries.c.kind != RESULT)
 
 
+def entries_after(connection: Connection, tournament_id: str, sequence: int, limit: int) -> list[Row[Any]]:
+    """Results and decisions after the entry with this number, in order, ``limit`` at most."""
+    return _entries(connection, tournament_id, tournament_entries.c.sequence > sequence, limit)
+
+
 def note(writing: Writing, row: Row[Any], kind: str, by: str, fields: dict[str, Any]) -> None:
     """Add an entry."""
     before = course_here(writing, row)
@@ -171,10 +176,13 @@ def _course(known: Course | None, connection: Connection, row: Row[Any]) -> Cour
     return Course(sequence, ledger.after(Act(each.kind, each.fields) for each in later))
 
 
-def _entries(connection: Connection, tournament_id: str, condition: ColumnElement[bool]) -> list[Row[Any]]:
+def _entries(
+    connection: Connection, tournament_id: str, condition: ColumnElement[bool], limit: int | None = None
+) -> list[Row[Any]]:
     """What happened, in order."""
     ours = (tournament_entries.c.tournament_id == tournament_id) & condition
-    return list(connection.execute(select(tournament_entries).where(ours).order_by(tournament_entries.c.sequence)))
+    query = select(tournament_entries).where(ours).order_by(tournament_entries.c.sequence).limit(limit)
+    return list(connection.execute(query))
 
 
 def _result(connection: Connection, match_id: str, due: Due) -> dict[str, Any]:

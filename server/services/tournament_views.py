@@ -1,5 +1,6 @@
 """Events as lists, single answers and standings show them. Secrets stay until the event is over."""
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -7,7 +8,9 @@ from sqlalchemy import Connection, Row, select
 
 from referee.game import Outcome
 from referee.wire import (
+    EntriesPage,
     EntryView,
+    NumberedEntry,
     OutcomeView,
     RatingView,
     SequentialTestView,
@@ -47,6 +50,12 @@ def view_of(connection: Connection, row: Row[Any], course: Course) -> Tournament
     )
 
 
+def entries_page(rows: Sequence[Row[Any]], limit: int) -> EntriesPage:
+    """Entries as a page; one more than the page holds says that there are more."""
+    given = tuple(NumberedEntry(number=each.sequence, **_noted(each)) for each in rows[:limit])
+    return EntriesPage(entries=given, next_cursor=str(given[-1].number) if len(rows) > limit else None)
+
+
 def summary(row: Row[Any]) -> TournamentSummary:
     """An event in a list."""
     return TournamentSummary(**_summary(row))
@@ -81,7 +90,11 @@ def _summary(row: Row[Any]) -> dict[str, Any]:
 
 
 def _entry(entry: Row[Any]) -> EntryView:
-    return EntryView(at=date_time(entry.created_at), kind=entry.kind, by=entry.by, fields=entry.fields)
+    return EntryView(**_noted(entry))
+
+
+def _noted(entry: Row[Any]) -> dict[str, Any]:
+    return {"at": date_time(entry.created_at), "kind": entry.kind, "by": entry.by, "fields": entry.fields}
 
 
 def _games(connection: Connection, row: Row[Any], ledger: Ledger) -> list[TournamentGame]:

@@ -13,6 +13,7 @@ from sqlalchemy import Connection, Row, insert, select
 
 from referee.wire import (
     DisqualifyRequest,
+    EntriesPage,
     StandingsView,
     TournamentList,
     TournamentRequest,
@@ -20,6 +21,7 @@ from referee.wire import (
     VoidRequest,
 )
 from server.errors import WrongStatus, invalid_field
+from server.security.callers import Caller
 from server.services import events, pages, tournament_views
 from server.services.commands import Answer, Command, once, parse
 from server.services.context import Context, Writing
@@ -79,6 +81,14 @@ def standings(context: Context, tournament_id: str) -> StandingsView:
     """How its entrants stand; raises `NotFound`."""
     with context.database.reading() as connection:
         return tournament_views.standings_view(context, connection, events.find(connection, tournament_id))
+
+
+def entries(context: Context, tournament_id: str, caller: Caller, after: int, limit: int) -> EntriesPage:
+    """Results and decisions after an entry, in order; raises `NotFound`. Organisers': results tell the noise."""
+    caller.require_organiser()
+    with context.database.reading() as connection:
+        row = events.find(connection, tournament_id)
+        return tournament_views.entries_page(events.entries_after(connection, row.id, after, limit + 1), limit)
 
 
 def listing(context: Context, status: str | None, search: str | None, cursor: int, limit: int) -> TournamentList:

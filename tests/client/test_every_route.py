@@ -48,6 +48,7 @@ ARGUMENTS = {
     "tournaments": [()],
     "tournament": [(ID,)],
     "standings": [(ID,)],
+    "tournament_entries": [(ID,)],
     "direct_tournament": [
         *((ID, act) for act in ("start", "pause", "abort")),
         (ID, "void", VoidRequest.model_construct()),

@@ -45,6 +45,7 @@ LET_IN = {
     "GET /v1/tournaments": PUBLIC,
     "GET /v1/tournaments/{tournament_id}": PUBLIC,
     "GET /v1/tournaments/{tournament_id}/standings": PUBLIC,
+    "GET /v1/tournaments/{tournament_id}/entries": ORGANISERS,
     "POST /v1/tournaments/{tournament_id}/start": ORGANISERS,
     "POST /v1/tournaments/{tournament_id}/pause": ORGANISERS,
     "POST /v1/tournaments/{tournament_id}/abort": ORGANISERS,

@@ -8,6 +8,7 @@ from support.streams import until, watching
 
 from referee.record import read_record, verify_record
 from tournament import Event, Spec, game_seeds
+from tournament.ledger import Act, Ledger
 
 
 @pytest.fixture
@@ -185,6 +186,27 @@ def test_decisions_are_checked_and_carried_out_once(cup, organiser):
     assert organiser.get("/v1/tournaments", status="odd").status_code == 422
 
 
+def test_the_entries_are_everything_that_was_noted_in_its_order(cup):
+    """Whoever keeps the same books needs no more than the terms and these."""
+    event = cup(("ann", "bob"))
+    event.act("start")
+    event.concede(event.running()[0])
+    event.act("void", {"pair": "r0-m0-p0", "leg": 0})
+    event.play_out()
+    read = lambda **query: event.organiser.get(f"/v1/tournaments/{event.id}/entries", **query).json()  # noqa: E731
+    first, cursor = [], 0
+    while cursor is not None:
+        page = read(limit=2, cursor=cursor)
+        assert len(page["entries"]) == 2
+        first += page["entries"]
+        cursor = page["next_cursor"]
+    assert [entry["kind"] for entry in first] == ["opened", "go_on", "game", "void", "game", "game"]
+    assert first == event.read("/entries")["entries"]
+    ledger = Ledger(Event(Spec.from_dict(event.terms))).after(Act(each["kind"], each["fields"]) for each in first)
+    assert ledger.event.finished
+    assert read(cursor=first[-1]["number"]) == {"entries": [], "next_cursor": None}
+
+
 def test_players_do_not_organise(cup):
     event = cup(("ann", "bob"))
     ann = event.players["ann"]
@@ -192,6 +214,7 @@ def test_players_do_not_organise(cup):
     for verb in ("start", "pause", "abort"):
         assert ann.post(f"/v1/tournaments/{event.id}/{verb}").status_code == 403
     assert ann.get(f"/v1/tournaments/{event.id}").status_code == 200
+    assert ann.get(f"/v1/tournaments/{event.id}/entries").status_code == 403
 
 
 def test_events_are_listed_the_newest_first(cup, organiser):

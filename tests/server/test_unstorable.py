@@ -20,6 +20,7 @@ ROUTES = [
     ("POST", "/v1/agents/{}/token"),
     ("DELETE", "/v1/agents/{}/token"),
     ("GET", "/v1/tournaments/{}/standings"),
+    ("GET", "/v1/tournaments/{}/entries"),
     ("POST", "/v1/tournaments/{}/start"),
     ("GET", "/web/{}"),
 ]

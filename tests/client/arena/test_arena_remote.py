@@ -5,12 +5,15 @@ import sys
 
 import pytest
 
+import client
 from client.arena.directory import EventDirectory, EventError
 from client.arena.executors import InProcess
+from client.arena.journal import Journal
 from client.arena.remote import RemoteRunner
 from client.arena.runner import Runner
 from client.arena.terms import Terms
 from referee.record import read_record, verify_record
+from referee.wire import Turn, VoidRequest
 
 CUP = {
     "name": "cup",
@@ -56,6 +59,84 @@ def test_an_agent_that_crashes_loses_for_that_reason_at_a_server_too(tmp_path, h
     directory = begin(tmp_path / "cup", entrants=["random", bad])
     ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
     assert {(one.reason.value, one.players[one.winner]) for one in ledger.event.counted} == {("crash", "random")}
+
+
+class Unplugged(BaseException):
+    """The runner stops here."""
+
+
+def unplugged(*_):
+    raise Unplugged
+
+
+@pytest.fixture
+def duel(tmp_path, hall):
+    """An event of two agents that play by themselves, begun; its runner is away."""
+    tokens = [hall.register(name) for name in ("ann", "bob")]
+    remote = [{"name": each.agent.name, "agent": f"remote:{each.agent.id}"} for each in tokens]
+    directory = begin(tmp_path / "duel", entrants=remote)
+    with pytest.raises(Unplugged):
+        RemoteRunner(directory, hall.url, hall.organiser_token, unplugged).run()
+    players = [client.Pooliad(hall.url, each.token) for each in tokens]
+    yield directory, players
+    for player in players:
+        player.close()
+
+
+def concede_turn(players):
+    """Whoever is to play concedes."""
+    for player in players:
+        while (message := player.turns(0.0)) is not None:
+            if isinstance(message, Turn) and message.view.my_turn:
+                player.play(message.game, message.view.version, client.Action(decision="concede"))
+                return
+    raise AssertionError("nobody is to play")
+
+
+def test_what_was_decided_while_the_runner_was_away_is_repeated_in_its_order(duel, hall):
+    """Seen: all results first, so that a game played again came too late, and its file was in the way for good."""
+    directory, players = duel
+    tournament = json.loads((directory.path / "server.json").read_text())["tournament"]
+    concede_turn(players)
+    hall.organiser.direct_tournament(tournament, "void", VoidRequest(pair="r0-m0-p0", leg=0))
+    concede_turn(players)
+    concede_turn(players)
+    ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
+    assert ledger.event.finished
+    assert sorted((one.id, one.void) for one in ledger.event.results) == [
+        ("r0-m0-p0-g0", True),
+        ("r0-m0-p0-g0-a1", False),
+        ("r0-m0-p0-g1", False),
+    ]
+    assert all(verify_record(directory.path / one.record).ok for one in ledger.event.results)
+
+
+def test_a_result_whose_journal_line_was_lost_is_taken_again(duel, hall, monkeypatch):
+    """Seen: the record was there, so the result was lost for good; a resume in a later round ended without a word."""
+    directory, players = duel
+    concede_turn(players)
+    concede_turn(players)
+    append = Journal.append
+    monkeypatch.setattr(
+        Journal, "append", lambda *args, **fields: unplugged() if args[1] == "game" else append(*args, **fields)
+    )
+    with pytest.raises(Unplugged):
+        RemoteRunner(directory, hall.url, hall.organiser_token).run()
+    monkeypatch.undo()
+    assert len(list(directory.games.iterdir())) == 1
+    ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
+    assert ledger.event.finished
+    assert len(ledger.event.counted) == 2
+
+
+def test_results_of_another_event_are_not_taken_for_this_ones(duel, tmp_path, hall):
+    directory, players = duel
+    concede_turn(players)
+    strangers = [{"name": name, "agent": "remote"} for name in ("cat", "dan")]
+    other = begin(tmp_path / "other", entrants=strangers)
+    (other.path / "server.json").write_text((directory.path / "server.json").read_text())
+    with pytest.raises(EventError, match="does not fit the event"):
+        RemoteRunner(other, hall.url, hall.organiser_token).run()
 
 
 def test_an_entrant_who_is_not_there_is_named(tmp_path, hall):
