@@ -16,9 +16,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
-from scipy.stats import t as student
-
 import client
 from benchmarks import recording
 from benchmarks.recording import Row, Tables
@@ -29,6 +26,7 @@ from referee import Action, Call, EightBall, Stroke
 from referee.play import MatchSeed, NoiseModel
 from referee.play.local import PlayedGame, play_game
 from referee.wire import View
+from tournament.statistics import score_of_cells
 
 SEED = 2026
 """Of all racks and all noise."""
@@ -180,8 +178,8 @@ def part_row(match: Row) -> Row:
 
 def match_row(player: str, opponent: str, noise: float, pairs: list[Row]) -> Row:
     """One match-up: the score with its interval from pairs, and what both did."""
-    scores = np.array([row["of_player"]["points"] for row in pairs]) / 2.0
-    low, high = interval(scores)
+    halves = Counter(round(2.0 * row["of_player"]["points"]) for row in pairs)
+    score = score_of_cells([halves[cell] for cell in range(5)])
     mine, theirs = (summed([row[side] for row in pairs]) for side in ("of_player", "of_opponent"))
     fouls: Counter[str] = Counter()
     for row in pairs:
@@ -192,12 +190,12 @@ def match_row(player: str, opponent: str, noise: float, pairs: list[Row]) -> Row
         "noise": noise,
         "agents": " ".join(sorted({row["agent"] for row in pairs})),
         "pairs": len(pairs),
-        "score": round(float(scores.mean()), 4),
-        "low_95": round(low, 4),
-        "high_95": round(high, 4),
-        "elo": round(elo(float(scores.mean())), 1),
-        "elo_low_95": round(elo(low), 1),
-        "elo_high_95": round(elo(high), 1),
+        "score": round(score.score, 4),
+        "low_95": round(score.low, 4),
+        "high_95": round(score.high, 4),
+        "elo": round(score.elo, 1),
+        "elo_low_95": round(score.elo_low, 1),
+        "elo_high_95": round(score.elo_high, 1),
         "break_and_run": round(mine["runs"] / max(1, mine["breaks"]), 4),
         "opponent_break_and_run": round(theirs["runs"] / max(1, theirs["breaks"]), 4),
         "called": mine["called"],
@@ -215,23 +213,6 @@ def match_row(player: str, opponent: str, noise: float, pairs: list[Row]) -> Row
 def summed(rows: list[Row]) -> Row:
     """The counts of several tallies."""
     return {name: sum(row[name] for row in rows) for name in (*_COUNTED, "seconds")}
-
-
-def interval(scores: np.ndarray) -> tuple[float, float]:
-    """95 % interval of the mean score of pairs, by Student's t.
-
-    With no spread at all, as after nothing but won pairs, half a game is taken to differ: the interval is not nothing.
-    """
-    n, spread = len(scores), float(scores.std(ddof=1)) if len(scores) > 1 else 0.5
-    spread = max(spread, 0.5 / n**0.5)
-    half = float(student.ppf(0.975, max(1, n - 1))) * spread / n**0.5
-    return max(0.0, float(scores.mean()) - half), min(1.0, float(scores.mean()) + half)
-
-
-def elo(score: float) -> float:
-    """The difference in Elo that explains a score; a score of all or nothing counts as 0.1 % short of it."""
-    share = min(max(score, 0.001), 0.999)
-    return 400.0 * float(np.log10(share / (1.0 - share)))
 
 
 def measure(full: bool) -> Tables:

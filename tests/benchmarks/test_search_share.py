@@ -1,9 +1,9 @@
 """A bounded share of the measurements of `search`: pairs, their pooling, the studies behind its constants."""
 
-import numpy as np
 import pytest
 
 from benchmarks import search, search_breaks, search_habits
+from tournament.statistics import score_of_cells
 
 
 def test_a_pair_is_two_games_on_the_same_racks():
@@ -18,22 +18,39 @@ def test_a_pair_is_two_games_on_the_same_racks():
 
 
 def test_pieces_are_pooled_by_match_up():
-    side = dict.fromkeys(("breaks", "runs", "called", "made", "safeties", "strokes", "simulated"), 1)
-    pairs = [
-        {"pair": pair, "agent": "v1", "of_player": side | {"points": points, "seconds": 0.5, "fouls": {"R32": 1}}}
-        | {"of_opponent": side | {"points": 2.0 - points, "seconds": 0.1, "fouls": {}}}
-        for pair, points in enumerate([2.0, 2.0, 1.0, 2.0])
-    ]
-    row = search.match_row("a", "b", 1.0, pairs)
+    row = match_of([2.0, 2.0, 1.0, 2.0])
     assert row["score"] == 0.875
-    assert row["low_95"] < 0.875 < row["high_95"] <= 1.0
     assert (row["pairs"], row["fouls"], row["seconds_per_stroke"]) == (4, {"R32": 4}, 0.5)
     assert row["elo"] == pytest.approx(338.0, abs=0.1)  # 400 log10(7)
 
 
-def test_nothing_but_wins_is_not_certainty():
-    low, high = search.interval(np.ones(20))
-    assert 0.9 < low < 1.0 == high
+def match_of(points):
+    """A match-up in which the player had so many points in each pair."""
+    side = dict.fromkeys(("breaks", "runs", "called", "made", "safeties", "strokes", "simulated"), 1)
+    pairs = [
+        {"pair": pair, "agent": "v1", "of_player": side | {"points": mine, "seconds": 0.5, "fouls": {"R32": 1}}}
+        | {"of_opponent": side | {"points": 2.0 - mine, "seconds": 0.1, "fouls": {}}}
+        for pair, mine in enumerate(points)
+    ]
+    return search.match_row("a", "b", 1.0, pairs)
+
+
+@pytest.mark.parametrize(
+    ("points", "cells"),
+    [
+        ((1.5,), (0, 0, 0, 1, 0)),
+        ((2.0, 2.0, 1.0, 0.5), (0, 1, 1, 0, 2)),
+        ((2.0,) * 20, (0, 0, 0, 0, 20)),
+        ((0.0, 1.0, 1.5) * 20, (20, 0, 20, 20, 0)),
+    ],
+)
+def test_scores_are_as_sure_as_in_tournaments(points, cells):
+    """One way to make an interval and an Elo difference of pairs: docs/tournaments.md, Scores."""
+    row, score = match_of(points), score_of_cells(cells)
+    told = [row[name] for name in ("score", "low_95", "high_95", "elo", "elo_low_95", "elo_high_95")]
+    meant = [score.score, score.low, score.high, score.elo, score.elo_low, score.elo_high]
+    assert told == pytest.approx(meant, abs=0.051)
+    assert told[:3] == pytest.approx(meant[:3], abs=1e-4)
 
 
 def test_a_study_of_breaks_finds_one_that_goes_on():
