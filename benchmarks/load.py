@@ -1,6 +1,8 @@
 """Shots a second through real HTTP at 1 to 500 concurrent games, next to a bare endpoint on the same stack.
 
 Every game is played from its answers: a stroke is sent as soon as the one before is answered, whoever's turn it is. The
+clock of the measurement starts when every game has its first break behind it, whose answer is five times the others'.
+Shots answered by its end count for the rate; those sent by its end, however late they are answered, for the times. The
 bare endpoint (`benchmarks.bare_endpoint`) does nothing but one transaction of as many bytes, flushed as the server's
 are, and answers as many bytes; it gets requests of the same size from the same client. So what differs is what
 the server does about a shot: token, repetition, version, clocks, rules, physics, record and view.
@@ -9,6 +11,7 @@ the server does about a shot: token, repetition, version, clocks, rules, physics
 import asyncio
 import contextlib
 import json
+import math
 import os
 import secrets
 import subprocess
@@ -56,14 +59,21 @@ async def compare(games: int, seconds: float) -> list[Row]:
 
 
 class Tally:
-    """What a run saw after its warm-up."""
+    """What a run saw after its warm-up: a shot in every game, and some seconds.
 
-    def __init__(self, seconds: float) -> None:
-        self.begins = time.perf_counter() + min(3.0, seconds / 3)
-        self.ends = self.begins + seconds
+    Args:
+        seconds: to measure. games: whose first shots are waited for.
+    """
+
+    def __init__(self, seconds: float, games: int) -> None:
         self.seconds = seconds
+        self.begins = self.ends = math.inf
+        self._warm_at = time.perf_counter() + min(3.0, seconds / 3)
+        self._to_warm = games
         self.shots = 0
         """All, those of the warm-up too."""
+        self.in_time = 0
+        """Answered before the end."""
         self.latencies: list[float] = []
         self.answered: list[int] = []
         self.sent: list[int] = []
@@ -81,15 +91,24 @@ class Tally:
             self.refused += 1
             return
         self.shots += 1
-        if self.begins <= now < self.ends:
+        if self.begins <= started:
             self.latencies.append(now - started)
+        if self.begins <= now < self.ends:
+            self.in_time += 1
             self.answered.append(len(reply.body))
             self.sent.append(sent)
+
+    def is_warm(self) -> None:
+        """One more game, or connection, has its first answer."""
+        self._to_warm -= 1
+        if self._to_warm == 0:
+            self.begins = max(time.perf_counter(), self._warm_at)
+            self.ends = self.begins + self.seconds
 
     @property
     def rate(self) -> float:
         """Shots a second."""
-        return len(self.latencies) / self.seconds
+        return self.in_time / self.seconds
 
     def row(self, what: str, games: int) -> Row:
         """The figures."""
@@ -100,7 +119,7 @@ class Tally:
             "shots_a_second": round(self.rate, 1),
             "p50_ms": round(1e3 * float(p50), 2),
             "p99_ms": round(1e3 * float(p99), 2),
-            "shots": len(self.latencies),
+            "shots": self.in_time,
             "refused": self.refused,
         }
 
@@ -109,14 +128,14 @@ async def play(port: int, games: int, seconds: float) -> Tally:
     """Play so many games at once."""
     async with connections(port, games) as wires:
         tables = [await begin(wire, number, ORGANISER) for number, wire in enumerate(wires)]
-        tally = Tally(seconds)
+        tally = Tally(seconds, games)
         await asyncio.gather(*(play_one(wire, table, tally) for wire, table in zip(wires, tables, strict=True)))
     return tally
 
 
 async def play_one(wire: Connection, players: tuple[Player, Player], tally: Tally) -> None:
     """One match, stroke after stroke."""
-    view, tries = await current_view(wire, players), 0
+    view, tries, cold = await current_view(wire, players), 0, True
     while not tally.is_over:
         request, body = next_request(view, players, tries)
         started = time.perf_counter()
@@ -125,7 +144,9 @@ async def play_one(wire: Connection, players: tuple[Player, Player], tally: Tall
         if reply.status != 200:
             tries += 1
             continue
-        view, tries = json.loads(reply.body)["view"], 0
+        if cold:
+            tally.is_warm()
+        view, tries, cold = json.loads(reply.body)["view"], 0, False
         if view["turn"] is None:
             view = await current_view(wire, players)
 
@@ -141,9 +162,11 @@ async def hammer(port: int, games: int, seconds: float, size: int) -> Tally:
     body = json.dumps({"shot": "x" * max(0, size - 200)}).encode()
     request = Connection.request("POST", "/shot", length=len(body), headers=f"Authorization: Bearer {'x' * 40}\r\n")
     async with connections(port, games) as wires:
-        tally = Tally(seconds)
+        tally = Tally(seconds, games)
 
         async def one(wire: Connection) -> None:
+            json.loads((await wire.send(request, body)).body)
+            tally.is_warm()
             while not tally.is_over:
                 started = time.perf_counter()
                 reply = await wire.send(request, body)

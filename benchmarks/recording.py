@@ -33,11 +33,12 @@ Tables = dict[str, list[Row]]
 def run(name: str, measure: Callable[[bool], Tables], full: bool) -> dict[str, Any]:
     """Run one benchmark, print its tables and append its line; the line.
 
-    A line made with changes that are not committed says so in ``uncommitted``.
+    A line made with changes that are not committed, or while the checkout changed, says so in ``uncommitted``.
     """
-    started, load = time.perf_counter(), os.getloadavg()[0]
+    started, load, before = time.perf_counter(), os.getloadavg()[0], describe(name, full)
     tables = measure(full)
-    line = describe(name, full) | {
+    line = before | {
+        "uncommitted": before["uncommitted"] or _source(before) != _source(describe(name, full)),
         "seconds": round(time.perf_counter() - started, 1),
         "load_before": round(load, 2),
         "tables": tables,
@@ -65,6 +66,11 @@ def describe(name: str, full: bool) -> dict[str, Any]:
     }
 
 
+def _source(line: dict[str, Any]) -> tuple[Any, ...]:
+    """What was measured."""
+    return line["commit"], line["kernels"], line["uncommitted"]
+
+
 def path_of(name: str) -> Path:
     """Where the lines of a benchmark are kept."""
     return RESULTS / f"{name}.jsonl"
@@ -83,9 +89,9 @@ def lines(name: str) -> list[dict[str, Any]]:
     return [json.loads(text) for text in path.read_text().splitlines()] if path.exists() else []
 
 
-def best_line(name: str) -> dict[str, Any] | None:
-    """The line to cite: the latest full run, else the latest of all."""
-    found = lines(name)
+def best_line(name: str, title: str) -> dict[str, Any] | None:
+    """The line to cite for a table: the latest full run that has it, else the latest of all."""
+    found = [line for line in lines(name) if title in line["tables"]]
     return next((line for line in reversed(found) if line["full"]), found[-1] if found else None)
 
 

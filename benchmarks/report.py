@@ -24,8 +24,8 @@ def write(path: Path) -> None:
 def filled(match: re.Match[str]) -> str:
     """A marked place with its table."""
     start, name, title, columns, end = match.groups()
-    line = recording.best_line(name)
-    if line is None or title not in line["tables"]:
+    line = recording.best_line(name, title)
+    if line is None:
         return f"{start}\nNot measured yet.\n{end}"
     return f"{start}\n{as_markdown(line['tables'][title], columns.split())}\n{cited(line)}\n{end}"
 

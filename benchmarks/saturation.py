@@ -33,7 +33,7 @@ def measure(full: bool) -> Tables:
 async def compare(periods: int, seconds: float) -> list[Row]:
     """The quiet row and the busy one."""
     found: dict[str, list[Tally]] = {"quiet": [], "batches": []}
-    simulated = 0
+    simulated = dict.fromkeys(found, 0)
     with (
         tempfile.TemporaryDirectory() as folder,
         serving("server", "--database", f"sqlite:///{folder}/pooliad.db") as port,
@@ -44,15 +44,17 @@ async def compare(periods: int, seconds: float) -> list[Row]:
             for _ in range(periods):
                 for name, tallies in found.items():
                     async with batches(port, busy=name == "batches") as count:
-                        tally = Tally(seconds)
+                        tally = Tally(seconds, GAMES)
                         await asyncio.gather(
                             *(play_one(wire, table, tally) for wire, table in zip(wires, tables, strict=True))
                         )
                     tallies.append(tally)
-                    simulated += count[0]
+                    simulated[name] += count[0]
     rows = [row(name, tallies, seconds) for name, tallies in found.items()]
     quiet = rows[0]["p99_ms"]
-    return [each | {"p99_ratio": round(each["p99_ms"] / quiet, 2), "simulated": simulated} for each in rows]
+    for each in rows:
+        each |= {"p99_ratio": round(each["p99_ms"] / quiet, 2), "simulated": simulated[each["what"]]}
+    return rows
 
 
 @contextlib.asynccontextmanager
@@ -93,11 +95,12 @@ def scene() -> dict[str, Any]:
 def row(what: str, tallies: list[Tally], seconds: float) -> Row:
     """All periods of one kind together."""
     latencies = np.concatenate([np.array(tally.latencies) for tally in tallies])
+    in_time = sum(tally.in_time for tally in tallies)
     p50, p99 = np.quantile(latencies, (0.5, 0.99))
     return {
         "what": what,
         "games": GAMES,
-        "strokes_a_second": round(len(latencies) / (seconds * len(tallies)), 1),
+        "strokes_a_second": round(in_time / (seconds * len(tallies)), 1),
         "p50_ms": round(1e3 * float(p50), 2),
         "p99_ms": round(1e3 * float(p99), 2),
         "strokes": len(latencies),

@@ -86,7 +86,7 @@ def arrival_rows(level: float, games: list[PlayedGame]) -> list[Row]:
             kind = kind_of(last, one)
             if kind and last is not None:
                 found[kind].append(offered(level, last)[0])
-    return [arrival_row(level, kind, np.array(found[kind] or [np.nan])) for kind in ARRIVALS]
+    return [arrival_row(level, kind, np.array(found[kind])) for kind in ARRIVALS]
 
 
 def arrival_row(level: float, kind: str, chances: np.ndarray) -> Row:

@@ -38,6 +38,7 @@ CLOCK = 300.0
 STROKES = 24
 """A game is given up after so many: more games in the same time, and ends of both kinds."""
 FULL = 20_000
+SHARE = 100
 CONFIDENCE = 0.95
 UNEXPLAINED = ("time_out", "no_show")
 
@@ -134,7 +135,12 @@ async def answer(
     return refused + 1 if reply.status == 422 else 0
 
 
-def measure(games: int, minutes: float) -> Tables:
+def measure(full: bool) -> Tables:
+    """20,000 games, or a share of them."""
+    return accounted(FULL if full else SHARE, math.inf)
+
+
+def accounted(games: int, minutes: float) -> Tables:
     """Play, and account for it."""
     started = time.perf_counter()
     exposure = asyncio.run(soak(games, minutes))
@@ -159,12 +165,12 @@ def measure(games: int, minutes: float) -> Tables:
 def main() -> None:
     """A run is a full one when 20,000 games were asked for and not cut short by the minutes."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--games", type=int, default=100, help="a full run has 20,000")
+    parser.add_argument("--games", type=int, default=SHARE, help="a full run has 20,000")
     parser.add_argument("--full", dest="games", action="store_const", const=FULL)
     parser.add_argument("--minutes", type=float, default=math.inf, help="no longer than this")
     told = parser.parse_args()
     full = told.games >= FULL and math.isinf(told.minutes)
-    line = recording.run("soak", lambda _: measure(told.games, told.minutes), full)
+    line = recording.run("soak", lambda _: accounted(told.games, told.minutes), full)
     sys.exit(1 if line["tables"]["exposure"][0]["unexplained_time_outs"] > 1 else 0)
 
 

@@ -36,7 +36,7 @@ def _catalogue() -> dict[str, str]:
 
     root = Path(__file__).resolve().parents[2]
     if not (root / "benchmarks" / "catalogue.py").is_file():
-        fail("benchmarks are not installed: run `pooliad bench` from a checkout (pip install -e .)")
+        fail("benchmarks are not installed: run `pooliad bench` from a checkout (pip install -e '.[test]')")
     if str(root) not in sys.path:
         sys.path.insert(0, str(root))
     from benchmarks.catalogue import BENCHMARKS
