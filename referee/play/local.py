@@ -266,7 +266,7 @@ class _Table:
         while game.outcome is None:
             started = self._now()
             try:
-                stroke = self._turn(game)
+                stroke = self._turn(game, started)
                 elapsed = self._now() - started
                 self._require_time(game.turn, elapsed)
             except Lost as lost:
@@ -293,16 +293,21 @@ class _Table:
         self.watch.on_stroke(stroke)
         return stroke.game
 
-    def _turn(self, game: Game) -> Stroke:
-        """The stroke of the player in turn; raises ``Lost``, after too many bad actions too."""
-        view, terms = self._view(game), self.header.terms
+    def _turn(self, game: Game, started: int) -> Stroke:
+        """The stroke of the player in turn; raises ``Lost``, after too many bad actions too.
+
+        The clock runs from ``started`` through all tries: a bad answer costs its time.
+        """
+        terms, spent = self.header.terms, 0
         for attempt in range(1, TRIES + 1):
             try:
-                action = self._asked(game.turn, view)
+                action = self._asked(game.turn, self._view(game, spent))
                 return play_stroke(terms.rules, game, action, self.seeds, terms.noise)
             except (BadAnswer, Refused) as error:
                 reason = error.__cause__ if isinstance(error.__cause__, Exception) else error
                 self.watch.on_refusal(BadAction(game.turn, attempt, reason))
+            spent = self._now() - started
+            self._require_time(game.turn, spent)
         raise Lost(EndReason.FORFEIT)
 
     def _asked(self, seat: int, view: View) -> Action:
@@ -330,20 +335,22 @@ class _Table:
         if self.watch.on_line:
             self.watch.on_line(self.chain.add(line()))
 
-    def _view(self, game: Game) -> View:
+    def _view(self, game: Game, spent: int) -> View:
+        """What the player in turn sees, who has used ``spent`` nanoseconds of this turn."""
         seat = game.turn
+        clocks = self.clocks.charged(seat, spent) if self.clocks else None
         return View.of(
             self.terms,
             game,
             seat=seat,
             version=len(self.history),
-            clocks=(self._clock(0, seat), self._clock(1, seat)),
+            clocks=(self._clock(clocks, 0, seat), self._clock(clocks, 1, seat)),
             score=self.score,
             strokes_since=since_own_last(self.history, seat),
         )
 
-    def _clock(self, seat: int, turn: int) -> ClockView:
-        left = self.clocks.remaining_ns(seat) / SECOND_NS if self.clocks else None
+    def _clock(self, clocks: Clocks | None, seat: int, turn: int) -> ClockView:
+        left = clocks.remaining_ns(seat) / SECOND_NS if clocks else None
         simulations = self.budget[seat].remaining
         return ClockView(seconds_left=left, running=seat == turn, simulations_left=simulations)
 

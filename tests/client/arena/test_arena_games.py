@@ -74,6 +74,7 @@ def script(tmp_path, text):
         ("os.close(0); time.sleep(60)", {}, EndReason.STALL),
         ("time.sleep(60)", {"seconds": 2.5}, EndReason.TIME_OUT),
         ("for line in sys.stdin:\n  if '\"turn\"' in line: print('nonsense', flush=True)", {}, EndReason.FORFEIT),
+        ("for line in sys.stdin: time.sleep(1); print('nonsense', flush=True)", {"seconds": 4.0}, EndReason.TIME_OUT),
         (
             'for line in sys.stdin:\n  if \'"turn"\' in line: print(\'{"decision": "concede"}\', flush=True)',
             {},
@@ -82,7 +83,7 @@ def script(tmp_path, text):
         ("for line in sys.stdin: print('x' * 2_000_000, flush=True)", {}, EndReason.CRASH),
         ("x = bytes(10**10)", {}, EndReason.CRASH),
     ],
-    ids=["exits", "killed", "silent", "deaf", "slow", "nonsense", "concedes", "long line", "memory"],
+    ids=["exits", "killed", "silent", "deaf", "slow", "nonsense", "slow nonsense", "concedes", "long line", "memory"],
 )
 def test_every_failure_has_its_own_end_and_costs_one_game(tmp_path, text, values, reason):
     """Both games are lost in the same way: after the first the process was started again."""

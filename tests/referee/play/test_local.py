@@ -158,6 +158,20 @@ def test_a_clock_at_exactly_zero_loses_and_the_record_proves_it():
     assert verify_record(game.record()).ok
 
 
+def test_a_bad_answer_costs_its_time():
+    """Seen: each of twenty tries had all that was left before the first one."""
+    left = []
+
+    def raises_late(view):
+        left.append(view.clocks[0].seconds_left)
+        raise RuntimeError("no idea")
+
+    game = game_of(raises_late, Potter("b"), timing=Timing(3 * 10**9, ticking(10**9)))
+    assert game.outcome == Outcome(1, EndReason.TIME_OUT, "R48")
+    assert left == [3.0, 2.0, 1.0]
+    assert verify_record(game.record()).ok
+
+
 @pytest.mark.parametrize("reason", [EndReason.CRASH, EndReason.STALL, EndReason.TIME_OUT, EndReason.FORFEIT])
 def test_a_player_who_is_out_loses_for_its_own_reason(reason):
     def out(_view):
