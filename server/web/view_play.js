@@ -40,7 +40,7 @@ export class PlayView {
   /** A match that is on already, of this tab or another. */
   async continueMatch(me) {
     const { matches } = await get(`/v1/matches?agent=${me.id}&status=running`);
-    if (matches.length) this.enter(matches[0].id);
+    if (matches.length && !this.closed) this.enter(matches[0].id);
   }
 
   chooseOpponent(me) {
@@ -61,7 +61,7 @@ export class PlayView {
             labelled("Name of the player", name), el("button", {}, "Challenge"))),
         el("section", { class: "panel", "aria-label": "Challenges" }, el("h2", {}, "Challenges to you"), challenges)));
     this.showBots(bots);
-    this.showChallenges(challenges, me);
+    this.lookOut(challenges, me);
   }
 
   async showBots(place) {
@@ -70,13 +70,15 @@ export class PlayView {
       el("p", { class: "empty" }, "This server keeps no house player."));
   }
 
-  async showChallenges(place, me) {
+  /** Show challenges as they come, and enter a match as soon as one begins: an opponent may accept long after. */
+  async lookOut(place, me) {
     while (!this.closed && !this.match) {
       const { matches } = await get(`/v1/matches?agent=${me.id}&status=challenged`).catch(() => ({ matches: [] }));
       const mine = matches.filter((match) => match.agents[match.challenger] !== me.id);
       fill(place, mine.length ? mine.map((match) => el("button", { type: "button", onclick: () => this.accept(match.id) },
         `Accept ${match.players[match.challenger]}`)) : el("p", { class: "empty" }, "None."));
       await pause(AGAIN);
+      await this.continueMatch(me).catch(() => null);
     }
   }
 

@@ -214,6 +214,16 @@ def test_news_of_an_earlier_match_does_not_end_the_turns_of_this_one(human):
     human.page.locator("ol.strokes li").first.wait_for()
 
 
+def test_a_match_that_begins_while_the_page_waits_is_entered(human):
+    """Seen: it was found after a reload alone; who waited at the page lost by not showing up.
+
+    So begins a match of an organiser's, or a challenge that is accepted after its player went elsewhere and came back.
+    """
+    match, _ = seated(human, first_breaker=0)
+    human.take_turn(human.view(match.game))
+    human.page.locator("ol.strokes li").first.wait_for()
+
+
 def test_the_cue_ball_is_dragged_and_the_cue_aimed_by_mouse_and_keys(human):
     """The break by pointer: an illegal place is shown as one; a drag beside the ball aims; arrows turn and speed up."""
     match, _ = seated(human, first_breaker=0)
