@@ -8,16 +8,19 @@ import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from pydantic import ValidationError
+
 from client.arena.directory import EventDirectory, EventError, write_whole
 from client.arena.hosting import Hosting, Kind
 from client.arena.process import ProcessSeat
 from client.arena.runner import Observer
+from client.arena.table import LONGEST_REPORT
 from client.arena.terms import Terms
-from client.errors import ApiError, NameTaken, PooliadError
+from client.errors import ApiError, NameTaken, PooliadError, Unprocessable
 from client.http import Pooliad
 from client.retry import Retry
-from referee import Action, Outcome, SimulationBudget
-from referee.play.local import Lost
+from referee import Action, EndReason, Outcome, SimulationBudget
+from referee.play.local import TRIES, Lost
 from referee.record import read_record
 from referee.wire import GameOver, NumberedEntry, TournamentRequest, Turn, View
 from tournament import Event, GameResult, TournamentError
@@ -191,6 +194,11 @@ class RemoteRunner:
         write_whole(path, record)
         return replace(result, record=f"games/{path.name}")
 
+    @property
+    def has_clocks(self) -> bool:
+        """Whether the event's terms have a clock; a match at a server always has one, else of a day."""
+        return self._terms.spec.seconds is not None
+
     def rests(self, seconds: float = 0.0) -> bool:
         """Whether the entrants are to leave, now or within ``seconds``."""
         return self._stop.wait(seconds)
@@ -227,6 +235,7 @@ class _Player:
         self._game = ""
         self._budget = SimulationBudget()
         self._declared = 0
+        self._bad = 0
 
     def play(self) -> None:
         """Play every turn until the runner stops; whatever goes wrong is noted, and tried again."""
@@ -235,7 +244,7 @@ class _Player:
                 try:
                     self._next(server, self.seat)
                 except Exception as error:
-                    self._runner.incident(self._name, f"{type(error).__name__}: {error}"[:500])
+                    self._runner.incident(self._name, f"{type(error).__name__}: {error}"[:LONGEST_REPORT])
                     self._runner.rests(PAUSE)
 
     def _next(self, server: Pooliad, seat: ProcessSeat) -> None:
@@ -255,25 +264,38 @@ class _Player:
         simulated = self._budget.used - self._declared
         try:
             answer = server.play(view.game, view.version, action, simulated=simulated)
+        except (Unprocessable, ValidationError) as error:
+            seat.refused(str(error))
+            self._count_bad(view, error)
         except PooliadError as error:
-            self._runner.incident(self._name, f"{view.game}: {error}"[:500])
-            return None
-        self._declared += simulated
-        return answer.view
+            self._runner.incident(self._name, f"{view.game}: {error}"[:LONGEST_REPORT])
+        else:
+            self._declared += simulated
+            self._bad = 0
+            return answer.view
+        return None
 
     def _ask(self, seat: ProcessSeat, view: View) -> Action | None:
+        clock = None if view.seat is None else view.clocks[view.seat]
         if view.game != self._game:
-            self._game, self._declared = view.game, 0
-            self._budget = SimulationBudget(view.budget.simulations if view.budget else None)
+            self._game, self._declared, self._bad = view.game, 0, 0
+            self._budget = SimulationBudget(None if clock is None else clock.simulations_left)
             seat.begin(self._budget)
-        left = None if view.seat is None else view.clocks[view.seat].seconds_left
         try:
-            return seat.ask(view, left)
+            return seat.ask(view, clock.seconds_left if clock and self._runner.has_clocks else None)
         except Lost as lost:
             self._runner.lost(view, lost.reason.value)
         except Exception as error:
-            self._runner.incident(self._name, f"{view.game}: bad answer: {error}"[:500])
+            self._count_bad(view, error)
         return None
+
+    def _count_bad(self, view: View, error: Exception) -> None:
+        """A bad answer; so many in a row as end a local game end this one too."""
+        self._bad += 1
+        if self._bad == 1:
+            self._runner.incident(self._name, f"{view.game}: bad answer: {error}"[:LONGEST_REPORT])
+        if self._bad >= TRIES:
+            self._runner.lost(view, EndReason.FORFEIT.value)
 
 
 def _slug(name: str) -> str:

@@ -54,6 +54,45 @@ def test_the_same_terms_and_seed_are_the_same_games_with_and_without_a_server(tm
     assert RemoteRunner(there, hall.url, hall.organiser_token).run().event.counted == remote.event.counted
 
 
+STUBBORN = """
+import json, sys
+refused = []
+for line in sys.stdin:
+    message = json.loads(line)
+    if message["type"] == "refused":
+        refused.append(message["reason"])
+        print(message["reason"], file=open(sys.argv[1], "a"))
+    if message["type"] == "turn":
+        print('{"decision": "%s"}' % ("concede" if refused else "rerack_and_break"), flush=True)
+"""
+NONSENSE = """
+import json, sys
+for line in sys.stdin:
+    if json.loads(line)["type"] == "turn":
+        print("asked", file=open(sys.argv[1], "a"))
+        print("nonsense", flush=True)
+"""
+SILENT = "import sys, time; open(sys.argv[1], 'a').write('asked\\n'); time.sleep(600)"
+
+
+@pytest.mark.parametrize(
+    ("text", "reason", "asked"),
+    [(STUBBORN, "concession", 2), (NONSENSE, "forfeit", 40), (SILENT, "stall", 2)],
+    ids=["told why it was refused", "nonsense", "silent without a clock"],
+)
+def test_an_agent_meets_the_same_patience_at_a_server(tmp_path, hall, text, reason, asked):
+    """Seen: it was told nothing, its nonsense was taken for ever, and without clocks it could be silent for a day."""
+    (tmp_path / "bot.py").write_text(text)
+    command = f"stdio:{sys.executable} {tmp_path / 'bot.py'} {tmp_path / 'asked'}"
+    entrants = ["random", {"name": "bot", "agent": command}]
+    directory = begin(tmp_path / "cup", entrants=entrants, seconds=None, hosting={"bot": {"answer_seconds": 3.0}})
+    ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
+    assert [(one.reason.value, one.players[one.winner]) for one in ledger.event.counted] == [(reason, "random")] * 2
+    lines = (tmp_path / "asked").read_text().splitlines()
+    assert len(lines) == asked
+    assert lines[0] == "asked" or "no choice is open" in lines[0]
+
+
 def test_an_agent_that_crashes_loses_for_that_reason_at_a_server_too(tmp_path, hall):
     bad = {"name": "bad", "agent": f"stdio:{sys.executable} -c pass"}
     directory = begin(tmp_path / "cup", entrants=["random", bad])
