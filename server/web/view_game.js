@@ -49,6 +49,8 @@ export class GameView {
     this.wanted = null;
     /** Called whenever every stroke told has been seen. */
     this.idle = () => {};
+    /** Called when the game has a result. */
+    this.ended = () => {};
   }
 
   /** Put controls beside the table. @param {...HTMLElement} controls */
@@ -134,6 +136,7 @@ export class GameView {
     this.links.hidden = false;
     fill(this.links, el("a", { href: `/v1/games/${id}/record`, download: `${id}.jsonl` }, "record"));
     announce(this.board.result.textContent ?? "");
+    this.ended();
   }
 
   /** Following: the next stroke when one is over; the newest when too many wait. */

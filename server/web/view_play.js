@@ -139,6 +139,7 @@ export class PlayView {
     this.game = new GameView();
     this.aiming = new Aiming(this.game.stage, (action) => this.act(action));
     this.game.idle = () => this.prepare();
+    this.game.ended = () => this.turn && this.dropTurn();
     const concede = el("button", { type: "button", onclick: () => this.concede(concede) }, "Concede");
     this.concedeButton = concede;
     this.game.panel(this.aiming.element, concede);
@@ -179,30 +180,37 @@ export class PlayView {
     announce("It is your turn.");
   }
 
-  /** @param {Record<string, any>} action */
+  /** The turn is not to be had any more: see what comes. */
+  dropTurn() {
+    this.turn = null;
+    this.aiming.end();
+    this.poll();
+  }
+
+  /** Answer the turn; until the server has spoken there is none, to be answered twice or dropped. */
   async act(action) {
     const view = this.turn;
     if (!view) return;
+    this.turn = null;
     const verb = action.decision ? "decisions" : "shots";
     try {
       const answer = await sent(`/v1/games/${view.game}/${verb}`, action, view.version);
       this.aiming.end();
-      const goesOn = answer.view.turn === answer.view.seat;
-      this.turn = goesOn ? answer.view : null;
+      if (answer.view.turn === answer.view.seat) this.turn = answer.view;
       this.game.follow.checked = true;
       this.game.goOn();
-      if (!goesOn) this.poll();
+      if (!this.turn) this.poll();
     } catch (error) {
-      this.refused(error);
+      this.refused(error, view);
     }
   }
 
-  refused(error) {
+  /** @param {unknown} error @param {Record<string, any>} view the turn it was to answer */
+  refused(error, view) {
     const gone = error instanceof ProblemError && ["stale_version", "game_finished", "not_your_turn", "out_of_time"].includes(error.problem.code);
-    if (!gone) return this.aiming.refuse(words(error));
-    this.aiming.end();
-    this.turn = null;
-    this.poll();
+    if (gone) return this.dropTurn();
+    this.turn = view;
+    this.aiming.refuse(words(error));
   }
 
   concede(button) {

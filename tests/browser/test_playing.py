@@ -224,6 +224,17 @@ def test_a_match_that_begins_while_the_page_waits_is_entered(human):
     human.page.locator("ol.strokes li").first.wait_for()
 
 
+def test_a_game_that_ends_in_ones_own_turn_is_over_on_the_page_too(human):
+    """Seen: called off, or out of time, it stayed "Your turn", and nothing that came later was asked for."""
+    match, _ = seated(human, first_breaker=0)
+    human.page.reload()
+    turn = human.page.get_by_role("region", name="Your turn")
+    turn.wait_for(timeout=PATIENCE)
+    human.server.send("POST", f"/v1/matches/{match.id}/abort")
+    human.page.get_by_role("button", name="Play again").wait_for()
+    assert not turn.is_visible()
+
+
 def test_the_cue_ball_is_dragged_and_the_cue_aimed_by_mouse_and_keys(human):
     """The break by pointer: an illegal place is shown as one; a drag beside the ball aims; arrows turn and speed up."""
     match, _ = seated(human, first_breaker=0)
