@@ -166,11 +166,6 @@ class Spec:
         """The entrants' names, as listed."""
         return tuple(entrant.name for entrant in self.entrants)
 
-    @property
-    def games_in_meeting(self) -> int:
-        """Games in a meeting, extra ones not counted."""
-        return 2 * self.pairs
-
     def to_dict(self) -> dict[str, Any]:
         """JSON form, the seed included: as long as the event goes on, this is for the organiser alone."""
         return {

@@ -1,5 +1,6 @@
 """How long an event will take: counted from its terms, timed on a few games that are not part of it."""
 
+import math
 import time
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -8,7 +9,8 @@ from client.arena.hosting import Kind
 from client.arena.tasks import play_pair
 from client.arena.terms import Terms
 from tournament import Event
-from tournament.size import games_of
+from tournament.pairings import LEGS
+from tournament.size import Phases, games_of, phases_of
 
 SAMPLE_SECONDS = 60.0
 """No further sample game is begun after so long."""
@@ -24,7 +26,8 @@ class Estimate:
         games: how many, at least and at most (extra pairs, early stops).
         workers: playing at once.
         sampled: games played to find out; game_seconds: mean wall time of those, None without any.
-        seconds: of the whole event, from that mean and ``games``; None without a sample.
+        seconds: of the whole event, at least and at most, from that mean; None without a sample. Workers play a pair
+            at a time, and in a Swiss or a knockout some of them wait for the end of a round.
         longest_seconds: if everybody used the whole clock; None without clocks.
     """
 
@@ -46,9 +49,15 @@ def estimate(terms: Terms, workers: int) -> Estimate:
     least, most = games_of(spec)
     times = sample(terms)
     mean = sum(times) / len(times) if times else None
-    rounds = None if mean is None else (least * mean / workers, most * mean / workers)
-    longest = None if spec.seconds is None else most * 2.0 * spec.seconds / workers
-    return Estimate((least, most), workers, len(times), mean, rounds, longest)
+    turns = tuple(_games_in_turn(phases, workers) for phases in phases_of(spec))
+    seconds = None if mean is None else (turns[0] * mean, turns[1] * mean)
+    longest = None if spec.seconds is None else turns[1] * 2.0 * spec.seconds
+    return Estimate((least, most), workers, len(times), mean, seconds, longest)
+
+
+def _games_in_turn(phases: Phases, workers: int) -> int:
+    """Games that follow each other: a worker has a pair at a time, and phases wait for each other."""
+    return len(LEGS) * sum(math.ceil(pairs / workers) for pairs in phases)
 
 
 def sample(terms: Terms) -> list[float]:

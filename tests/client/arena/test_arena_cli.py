@@ -5,6 +5,8 @@ import json
 import pytest
 from typer.testing import CliRunner
 
+from client.arena.estimate import estimate
+from client.arena.terms import Terms
 from client.cli import application
 
 CUP = """
@@ -31,7 +33,7 @@ def cli(tmp_path, monkeypatch):
 def test_an_event_from_its_file_to_its_report(cli, tmp_path):
     estimate = json.loads(cli("run", "cup.toml", "--dry-run", "--json").stdout)
     assert estimate["games"] == [2, 2]
-    assert estimate["longest_seconds"] == 400.0 / estimate["workers"]
+    assert estimate["longest_seconds"] == 400.0, "both games are of one pair: one worker plays them"
     assert not (tmp_path / "cup").exists()
     played = json.loads(cli("run", "cup.toml", "--executor", "inline", "--json").stdout)
     assert (played["state"], played["games"], played["due"]) == ("finished", 2, 0)
@@ -46,6 +48,16 @@ def test_an_event_from_its_file_to_its_report(cli, tmp_path):
     assert "<html" in (tmp_path / "cup" / "report.html").read_text()
     assert len((tmp_path / "cup" / "results.jsonl").read_text().splitlines()) == 2
     assert "Cup" in cli("status", "cup").stdout
+
+
+def test_an_estimate_counts_pairs_and_the_rounds_that_wait_for_each_other():
+    """Seen: games divided by workers, so that three rounds of 7 pairs were to take 8 workers less than a pair."""
+    entrants = [{"name": name, "agent": "remote"} for name in "abcdefgh"]
+    terms = {"name": "cup", "entrants": entrants, "format": "knockout", "pairs": 1, "extra_pairs": 1, "seconds": 50}
+    found = estimate(Terms.from_dict(terms), workers=3)
+    assert found.games == (14, 28)
+    turns = (2 + 2) + (1 + 1) + (1 + 1)  # pairs that follow each other: of the round, and extra ones
+    assert found.longest_seconds == turns * 2 * 2 * 50.0
 
 
 def test_decisions_are_noted_with_who_and_why(cli, tmp_path):
