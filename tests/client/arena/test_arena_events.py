@@ -248,11 +248,28 @@ def test_an_aborted_event_is_over_for_good(tmp_path):
 
 
 def test_who_is_disqualified_forfeits_what_was_begun_and_is_paired_no_more(tmp_path):
-    directory = begin(tmp_path / "cup")
-    ledger = run(directory, Deciding(directory, 1, "disqualify", name="third", reason="cheated"))
-    assert ledger.over
-    assert "third" in ledger.event.withdrawn
-    assert {game.reason for game in ledger.event.counted if "third" in game.players} <= {"forfeit"}
+    """The first pair stands; the second one is on the board by then, the rest of the event not."""
+    directory = begin(tmp_path / "cup", pairs=2)
+    played = []
+
+    def decide(ledger, _running):
+        if ledger.event.counted and not played:
+            played.extend(ledger.event.counted)
+            directory.journal.append("disqualify", name=played[0].players[0], reason="cheated")
+
+    event = Runner(directory, InProcess(), decide).run().event
+    out, other = played[0].players
+    assert event.finished
+    assert event.withdrawn == {out: 1}
+    assert [game for game in event.counted if out in game.players][:2] == played
+    assert {game.reason for game in played}.isdisjoint({"forfeit"})
+    forfeits = [game for game in event.counted if out in game.players][2:]
+    assert [(game.id, game.reason, game.points_of(other)) for game in forfeits] == [
+        ("r0-m0-p1-g0", "forfeit", 1.0),
+        ("r0-m0-p1-g1", "forfeit", 1.0),
+    ]
+    assert len(event.counted) == 8, "and the one meeting of the others"
+    assert (directory.games / "r0-m0-p1-g0.jsonl").exists(), "it was played, and came too late"
 
 
 def test_a_decision_that_cannot_be_is_refused_in_words(tmp_path):
