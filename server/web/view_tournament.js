@@ -6,8 +6,10 @@ import { stateMark } from "./match_row.js";
 import { ratingPlot } from "./rating_plot.js";
 import { describeOutcome } from "./words.js";
 
-/** Time between two looks at a tournament that goes on, ms. */
+/** Time between two looks at a tournament that is not over, ms. */
 const AGAIN = 5000;
+/** How a tournament stands that stays as it is. */
+const OVER = ["finished", "aborted"];
 
 /** @param {Record<string, any>} event */
 export function tournamentRow(event) {
@@ -26,12 +28,19 @@ export class TournamentView {
   /** @param {string} id */
   async open(id) {
     const path = `/v1/tournaments/${encodeURIComponent(id)}`;
-    while (!this.closed) {
-      const [event, { standings, ratings, test }] = await Promise.all([get(path), get(`${path}/standings`)]);
-      this.show(event, standings, test, ratings);
-      if (!["running", "paused"].includes(event.status)) return;
+    let status = await this.look(path);
+    while (!OVER.includes(status)) {
       await new Promise((go) => setTimeout(go, AGAIN));
+      if (this.closed) return;
+      status = await this.look(path).catch(() => status); // a server that restarts is back soon
     }
+  }
+
+  /** Show how it stands now. @param {string} path @returns {Promise<string>} its status */
+  async look(path) {
+    const [event, { standings, ratings, test }] = await Promise.all([get(path), get(`${path}/standings`)]);
+    this.show(event, standings, test, ratings);
+    return event.status;
   }
 
   show(event, standings, test, ratings) {

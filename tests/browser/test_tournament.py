@@ -1,5 +1,7 @@
 """A tournament on the page: in the lobby, its standings and ratings, and from there down to a game."""
 
+import signal
+
 from support.play_along import Match, next_turn
 
 
@@ -26,6 +28,26 @@ def test_a_tournament_is_followed_from_the_lobby_to_a_game(page, server):
     page.get_by_role("link", name="–").first.click()
     page.get_by_role("link", name="Game 1").click()
     page.locator(".result", has_text="wins: concession").wait_for()
+
+
+def test_a_tournament_that_is_looked_at_goes_on_before_the_eyes(page, own_server, watched):
+    """Seen: opened before its start it never moved, and one look that failed, as in a restart, was the last."""
+    watched.forgiven = ("Failed to load resource", "ERR_CONNECTION", "ERR_INCOMPLETE", "ERR_NETWORK", "ERR_EMPTY")
+    players = {name: own_server.register(name) for name in ("ann", "bob")}
+    terms = {"name": "Cup", "entrants": list(players), "pairs": 1, "seed": 5}
+    agents = {name: made["agent"]["id"] for name, made in players.items()}
+    event = own_server.send("POST", "/v1/tournaments", json={"terms": terms, "agents": agents}).json()["id"]
+    page.goto(f"{own_server.url}/#/tournaments/{event}")
+    page.locator(".state", has_text="created").wait_for()
+    assert own_server.send("POST", f"/v1/tournaments/{event}/start").status_code == 200
+    page.locator(".heading .state", has_text="running").wait_for()
+    own_server.stop(signal.SIGKILL)
+    with page.expect_event("requestfailed"):
+        pass
+    own_server.start()
+    while running := [one for one in read(own_server, event)["played"] if one["status"] == "running"]:
+        concede(own_server, running[0], players)
+    page.locator(".heading .state", has_text="finished").wait_for()
 
 
 def read(server, event: str) -> dict:
