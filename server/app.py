@@ -62,7 +62,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.spectators = Spectators(context)
     app.state.house = House(context)
     app.openapi = partial(openapi.document, app)  # type: ignore[method-assign]
-    app.add_middleware(BodyGate, limit=settings.body_limit, seconds=settings.body_seconds, time=context.time)
+    app.add_middleware(BodyGate, settings=settings, time=context.time)
     app.add_middleware(Farewell, draining=context.wakeups.draining)
     app.add_middleware(Telemetry, metrics=context.metrics)
     app.state.endpoints = (*app.routes, *(route for router in ROUTERS for route in router.routes))

@@ -26,7 +26,7 @@
     ├── KeyReused               422
     ├── VersionRequired         428
     ├── TooManyRequests         429  says whose limit it is and how long to wait
-    │   └── TooManyStreams      429
+    │   └── TooManyOpen         429  streams or long polls
     ├── Internal                500  a fault of ours
     ├── Draining                503
     └── Unavailable             503  the database does not answer
@@ -232,22 +232,22 @@ class TooManyRequests(ServerError):
         self.key, self.seconds = key, seconds
 
 
-class TooManyStreams(TooManyRequests):
-    """Somebody watches with more streams than allowed.
+class TooManyOpen(TooManyRequests):
+    """Somebody holds more streams or long polls open than allowed.
 
     Args:
-        key: whose limit it is. streams: how many are open. most: how many may be.
+        key: whose limit it is. what: `streams` or `polls`. taken: how many are open. most: how many may be.
     """
 
     AGAIN = 10
     """Seconds after which another one may have ended."""
 
-    def __init__(self, key: str, streams: int, most: int) -> None:
+    def __init__(self, key: str, what: str, taken: int, most: int) -> None:
         ServerError.__init__(
             self,
-            f"the {key} has {streams} streams open; allowed: at most {most} at once",
-            field="streams",
-            value=streams,
+            f"the {key} has {taken} {what} open; allowed: at most {most} at once",
+            field=what,
+            value=taken,
             allowed=f"at most {most} at once of the {key}",
         )
         self.key, self.seconds = key, self.AGAIN

@@ -66,13 +66,18 @@ class Settings:
     address_connections: int = setting(
         2000, "connections of one address at once; 0: any number, as behind a proxy", zero=True
     )
-    body_limit: int = setting(2 * 1024 * 1024, "a request's body has at most so many bytes")
+    body_limit: int = setting(64 * 1024, "a request's body has at most so many bytes")
+    large_body_limit: int = setting(2 * 1024 * 1024, "likewise of a batch of shots, and of a tournament's terms")
+    held_bodies: int = setting(
+        128 * 1024 * 1024, "bytes of all bodies at once, what is beyond the first 16,384 of each"
+    )
     body_seconds: float = setting(10.0, "a request's body must be complete after")
     token_rate: float = setting(200.0, "requests a second of one token; a hundred shots of a batch count as one")
     token_burst: float = setting(1000.0, "requests of one token at once")
     address_rate: float = setting(200.0, "requests a second of one address without a valid token")
     address_burst: float = setting(1000.0, "such requests at once")
     streams: int = setting(64, "streams of one token, or of one address without one, that may be open at once")
+    polls: int = setting(64, "long polls of one token that may be open at once")
     physics_threads: int = setting(2, "threads for simulations that clients ask for")
     log_level: str = setting("info", "the least that is logged: `debug`, `info`, `warning`, `error`", one_of=LOG_LEVELS)
     drain_seconds: float = setting(5.0, "the server stops at the latest so long after SIGTERM")

@@ -29,8 +29,9 @@ async def next_message(
     ] = "0",
 ) -> Response:
     """`turn` (until it is played), `game_over` or `match_over` (once each); 204 when there is none."""
-    seconds = _seconds(wait, context.settings.longest_wait)
-    message = await wait_for_message(context, caller.require_agent(), seconds, request.is_disconnected)
+    agent, seconds = caller.require_agent(), _seconds(wait, context.settings.longest_wait)
+    with context.limits.waiting(caller):
+        message = await wait_for_message(context, agent, seconds, request.is_disconnected)
     return Response(status_code=204) if message is None else Response(message, media_type="application/json")
 
 

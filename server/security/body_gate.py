@@ -6,36 +6,49 @@ the arrival of the last byte and not the moment somebody got round to reading it
 """
 
 import asyncio
-from typing import Any
+from collections.abc import Callable
+from typing import Any, Final
 from urllib.parse import parse_qsl
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from referee.wire import shown
 from server.errors import NotFound, ServerError, SlowBody, TooLarge, UnsupportedMediaType, invalid_field, render
+from server.security.held_bytes import HeldBytes
 from server.services.time import TimeSource
+from server.settings import Settings
 
 BODILESS = frozenset({"GET", "HEAD", "OPTIONS", "DELETE"})
+LARGE: Final = frozenset({"/v1/simulate/batch", "/v1/tournaments"})
+"""Where a thousand shots or entrants may come: no other route has use for a large body."""
+UNCOUNTED: Final = 16 * 1024
+"""Bytes of each body that are always taken, however much is held already: no stroke is longer."""
 
 
 class BodyGate:
     """ASGI middleware: collects the body into `scope["state"]["body"]`, its arrival into `…["arrived"]`."""
 
-    def __init__(self, app: ASGIApp, *, limit: int, seconds: float, time: TimeSource) -> None:
+    def __init__(self, app: ASGIApp, *, settings: Settings, time: TimeSource) -> None:
         self._app = app
-        self._limit = limit
-        self._seconds = seconds
+        self._limit = settings.body_limit
+        self._large_limit = settings.large_body_limit
+        self._seconds = settings.body_seconds
+        self._held = HeldBytes(settings.held_bodies)
         self._time = time
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let the request through with its body, or answer 404, 408, 413, 415 or 422 in its place."""
+        """Let the request through with its body, or answer 404, 408, 413, 415, 422 or 429 in its place."""
         if scope["type"] != "http":
             return await self._app(scope, receive, send)
+        with self._held.share() as hold:
+            return await self._pass(scope, receive, send, hold)
+
+    async def _pass(self, scope: Scope, receive: Receive, send: Send, hold: Callable[[int], None]) -> None:
         body = None
         try:
             _require_address(scope)
             if scope["method"] not in BODILESS:
-                body = await self._collect(scope, receive)
+                body = await self._collect(scope, receive, hold)
         except _HungUp:
             return None
         except ServerError as error:
@@ -45,34 +58,34 @@ class BodyGate:
         scope.setdefault("state", {}).update(body=body, arrived=self._time.now())
         return await self._app(scope, _replay(body, receive), send)
 
-    async def _collect(self, scope: Scope, receive: Receive) -> bytes:
+    async def _collect(self, scope: Scope, receive: Receive, hold: Callable[[int], None]) -> bytes:
         _require_plain(scope)
-        if _announced_length(scope) > self._limit:
-            raise self._too_large()
+        limit = self._large_limit if scope["path"] in LARGE else self._limit
+        if _announced_length(scope) > limit:
+            raise _too_large(limit)
         try:
-            return await asyncio.wait_for(self._read(receive), self._seconds)
+            return await asyncio.wait_for(_read(receive, limit, hold), self._seconds)
         except TimeoutError as error:
             allowed = f"{self._seconds:g} seconds"
             raise SlowBody(f"the body was not complete after {allowed}", allowed=allowed) from error
 
-    async def _read(self, receive: Receive) -> bytes:
-        body = bytearray()
-        while True:
-            message = await receive()
-            if message["type"] == "http.disconnect":
-                raise _HungUp
-            body += message.get("body", b"")
-            if len(body) > self._limit:
-                raise self._too_large()
-            if not message.get("more_body", False):
-                return bytes(body)
 
-    def _too_large(self) -> TooLarge:
-        return TooLarge(
-            f"the body is larger than {self._limit} bytes",
-            field="body",
-            allowed=f"at most {self._limit} bytes",
-        )
+async def _read(receive: Receive, limit: int, hold: Callable[[int], None]) -> bytes:
+    body = bytearray()
+    while True:
+        message = await receive()
+        if message["type"] == "http.disconnect":
+            raise _HungUp
+        body += message.get("body", b"")
+        if len(body) > limit:
+            raise _too_large(limit)
+        hold(max(0, len(body) - UNCOUNTED))
+        if not message.get("more_body", False):
+            return bytes(body)
+
+
+def _too_large(limit: int) -> TooLarge:
+    return TooLarge(f"the body is larger than {limit} bytes", field="body", allowed=f"at most {limit} bytes")
 
 
 class _HungUp(Exception):

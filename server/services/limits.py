@@ -1,4 +1,4 @@
-"""Who has asked too often or watches too much: by token for those who have a valid one, by address for the others."""
+"""Who has asked too often or has too much open: by token for those who have a valid one, by address for the others."""
 
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
@@ -15,11 +15,12 @@ SHOTS_PER_REQUEST = 100
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """The rates of one server process, and its streams."""
+    """The rates of one server process, its streams and long polls."""
 
     callers: Rates
     addresses: Rates
     streams: Places
+    polls: Places
 
     @classmethod
     def of(cls, settings: Settings, time: TimeSource) -> "Limits":
@@ -27,7 +28,8 @@ class Limits:
         return cls(
             callers=Rates(settings.token_rate, settings.token_burst, time),
             addresses=Rates(settings.address_rate, settings.address_burst, time),
-            streams=Places(settings.streams),
+            streams=Places("streams", settings.streams),
+            polls=Places("polls", settings.polls),
         )
 
     def count(self, caller: Caller, cost: float = 1.0) -> None:
@@ -43,8 +45,12 @@ class Limits:
         self.addresses.take(_address(address))
 
     def watching(self, caller: Caller | None, address: str) -> AbstractContextManager[None]:
-        """A place to watch from, for the length of a stream; raises `TooManyStreams`."""
+        """A place to watch from, for the length of a stream; raises `TooManyOpen`."""
         return self.streams.one(_address(address) if caller is None else _token(caller))
+
+    def waiting(self, caller: Caller) -> AbstractContextManager[None]:
+        """A place to wait for news, for the length of a long poll; raises `TooManyOpen`."""
+        return self.polls.one(_token(caller))
 
 
 def _token(caller: Caller) -> str:

@@ -54,7 +54,7 @@ def problem_of(response, status, code):
         b"\xff\xfe",
         b'{"a": "\xc3"}',
         b'{"a": "\\ud800"}',
-        b"[" * 100_000,
+        b"[" * 60_000,
         b'{"a":' * 5_000,
         b"1" * 10_000,
     ],
@@ -321,7 +321,7 @@ def test_tokens_that_are_none(server, header):
 
 def test_a_faulty_value_is_not_echoed_in_full(at_break):
     _, mover, view = at_break
-    response = mover.act(view, {"shot": "x" * 100_000, uuid.uuid4().hex: ["y" * 100_000] * 10})
+    response = mover.act(view, {"shot": "x" * 10_000, uuid.uuid4().hex: ["y" * 5_000] * 10})
     problem_of(response, 422, "invalid")
     assert len(response.content) < 10_000
 

@@ -139,6 +139,49 @@ def closed(connection):
     return connection.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO) != TCP_ESTABLISHED
 
 
+# large bodies
+
+
+@pytest.mark.parametrize(
+    ("path", "status"),
+    [
+        ("/v1/agents", 413),
+        ("/v1/matches", 413),
+        ("/v1/nothing", 413),
+        ("/v1/simulate", 413),
+        ("/v1/simulate/batch", 401),
+        ("/v1/tournaments", 401),
+    ],
+)
+def test_a_large_body_is_taken_where_one_is_of_use(server, path, status):
+    assert server.request("POST", path, json={"name": "x" * 70_000}).status_code == status
+
+
+def begun(server, size, length):
+    """A request without a token of whose body so much has come."""
+    connection = connected(server)
+    head = f"POST /v1/simulate/batch HTTP/1.1\r\nhost: x\r\ncontent-length: {length}\r\n\r\n"
+    connection.sendall(head.encode() + b" " * size)
+    return connection
+
+
+def test_the_bodies_of_all_requests_together_are_bounded(own_server, table_at, break_shot):
+    """Two thousand connections without a token could make the server keep four gigabytes; a stroke always fits."""
+    server = own_server(POOLIAD_HELD_BODIES="100000", POOLIAD_BODY_SECONDS="20")
+    table = table_at(server, noise={"level": 0.0})
+    mover, view = table.mover()
+    with begun(server, 90_000, 200_000) as first:
+        time.sleep(0.5)
+        refused = server.request("POST", "/v1/simulate/batch", content=b" " * 90_000)
+        problem = refused.json()
+        assert (refused.status_code, problem["code"], refused.headers["retry-after"]) == (429, "too_many_requests", "1")
+        assert problem["allowed"] == "100000 bytes at once"
+        assert mover.act(view, break_shot).status_code == 200
+        first.sendall(b" " * 110_000)
+        assert first.recv(4096).startswith(b"HTTP/1.1 429 "), "200,000 are too many alone"
+    assert server.request("POST", "/v1/simulate/batch", content=b" " * 90_000).status_code == 401
+
+
 # frequent clients
 
 

@@ -127,3 +127,21 @@ def test_a_signal_sends_open_polls_home_and_stops_the_server_within_seconds(own_
         poll.join()
     assert statuses == [204] * 8
     assert "Traceback" not in server.log
+
+
+def test_the_polls_of_a_token_are_bounded(own_server, player_at):
+    """Each looks into the database every two seconds: two thousand of one agent kept it busy for all others."""
+    server = own_server(POOLIAD_POLLS="2")
+    player, other = player_at(server), player_at(server)
+    with ThreadPoolExecutor(2) as pool:
+        polls = [pool.submit(player.get, "/v1/turns", wait=4) for _ in range(2)]
+        time.sleep(1.0)
+        refused = player.get("/v1/turns")
+        problem = refused.json()
+        assert (refused.status_code, problem["code"]) == (429, "too_many_requests")
+        assert refused.headers["retry-after"] == "10"
+        assert (problem["field"], problem["value"]) == ("polls", 2)
+        assert problem["allowed"] == f"at most 2 at once of the token of {player.id}"
+        assert other.get("/v1/turns").status_code == 204
+        assert {poll.result().status_code for poll in polls} == {204}
+    assert player.get("/v1/turns").status_code == 204
