@@ -81,7 +81,7 @@ def _row(status: int, duration: float, n_events: int, positions: list[list[float
         status=_NAMES[status],
         duration=duration,
         n_events=n_events,
-        balls={ball: (x, y) for ball, (x, y) in enumerate(positions) if not math.isnan(x)},
+        balls={ball: (x, y) for ball, (x, y) in enumerate(positions) if x == x},
         pocketed={ball: where for ball, where in enumerate(pocket) if where >= ON_TABLE},
     )
 
