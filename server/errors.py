@@ -6,6 +6,7 @@
     ServerError
     ├── NotJson                 400
     ├── BadHeader               400
+    │   └── TwoLengths          400
     ├── Unauthorized            401
     ├── Forbidden               403
     ├── NotFound                404
@@ -89,6 +90,12 @@ class BadHeader(ServerError):
     """A header is malformed, or one that is needed is missing."""
 
     status, code = 400, ProblemCode.BAD_HEADER
+
+
+class TwoLengths(BadHeader):
+    """The message says in two ways where it ends: whatever comes after it on the connection may be a part of it."""
+
+    headers: ClassVar[Mapping[str, str]] = {"connection": "close"}
 
 
 class Unauthorized(ServerError):

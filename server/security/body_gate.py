@@ -13,7 +13,16 @@ from urllib.parse import parse_qsl
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from referee.wire import shown
-from server.errors import NotFound, ServerError, SlowBody, TooLarge, UnsupportedMediaType, invalid_field, render
+from server.errors import (
+    NotFound,
+    ServerError,
+    SlowBody,
+    TooLarge,
+    TwoLengths,
+    UnsupportedMediaType,
+    invalid_field,
+    render,
+)
 from server.security.held_bytes import HeldBytes
 from server.services.time import TimeSource
 from server.settings import Settings
@@ -37,7 +46,7 @@ class BodyGate:
         self._time = time
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let the request through with its body, or answer 404, 408, 413, 415, 422 or 429 in its place."""
+        """Let the request through with its body, or answer 400, 404, 408, 413, 415, 422 or 429 in its place."""
         if scope["type"] != "http":
             return await self._app(scope, receive, send)
         with self._held.share() as hold:
@@ -46,6 +55,7 @@ class BodyGate:
     async def _pass(self, scope: Scope, receive: Receive, send: Send, hold: Callable[[int], None]) -> None:
         body = None
         try:
+            _require_one_length(scope)
             _require_address(scope)
             if scope["method"] not in BODILESS:
                 body = await self._collect(scope, receive, hold)
@@ -90,6 +100,13 @@ def _too_large(limit: int) -> TooLarge:
 
 class _HungUp(Exception):
     """The caller left before the body was complete: nobody to answer, and nothing to carry out."""
+
+
+def _require_one_length(scope: Scope) -> None:
+    """Raise `TwoLengths` (RFC 9112, 6.3): a proxy may go by the one length, the framework goes by the other."""
+    if {b"content-length", b"transfer-encoding"} <= {name for name, _ in scope["headers"]}:
+        detail = "the request has a Content-Length and a Transfer-Encoding"
+        raise TwoLengths(detail, field="Transfer-Encoding", allowed="one of them")
 
 
 def _require_address(scope: Scope) -> None:

@@ -120,17 +120,24 @@ def test_a_stroke_sent_twice_in_one_breath_is_played_once(new_table, break_shot)
     assert len(mover.get(f"/v1/games/{view['game']}/shots").json()["shots"]) == 1
 
 
+HIDDEN = b"GET /v1/agents HTTP/1.1\r\nHost: x\r\n\r\n"
+"""A request inside what another length makes the body of the one before."""
+
+
 @pytest.mark.parametrize(
     "request_line",
     [
-        b"GET /healthz HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n",
+        b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n"
+        + HIDDEN,
+        b"GET /healthz HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\nContent-Length: 5\r\n\r\n0\r\n\r\n"
+        + HIDDEN,
         b"GET /healthz HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nContent-Length: 6\r\n\r\nhello",
         b"GET /healthz HTTP/1.1\r\nHost: x\r\nX: " + b"a" * 200_000 + b"\r\n\r\n",
         b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
         b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nContent-Length: -1\r\n\r\n",
         b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n",
     ],
-    ids=["both lengths", "two lengths", "long header", "no chunk", "negative", "TLS"],
+    ids=["both lengths", "both lengths, no body", "two lengths", "long header", "no chunk", "negative", "TLS"],
 )
 def test_requests_that_are_none_are_refused(server, request_line):
     """RFC 9112, 6.3: of a message with two lengths, or one that is none, nobody knows where it ends."""
@@ -140,8 +147,8 @@ def test_requests_that_are_none_are_refused(server, request_line):
             said = until_closed(connection)
         except ConnectionResetError:
             said = b"HTTP/1.1 400 "
-    assert said.startswith((b"HTTP/1.1 400 ", b"HTTP/1.1 200 ")), said
-    assert said.count(b"HTTP/1.1 ") == 1 or b"HTTP/1.1 400" in said
+    assert said.startswith(b"HTTP/1.1 400 "), said
+    assert said.count(b"HTTP/1.1 ") == 1
     assert server.request("GET", "/healthz").status_code == 200
 
 

@@ -1,5 +1,6 @@
 """Time per agent per game, measured by the server alone; R48: a time-out is its own end reason."""
 
+import json
 import time
 from concurrent.futures import ThreadPoolExecutor
 
@@ -81,15 +82,20 @@ def test_a_shot_that_comes_too_late_is_refused_before_the_timer_has_looked(own_s
     assert mover.turn(wait=10)["outcome"]["reason"] == "time_out"
 
 
-def test_the_clock_stops_when_the_body_is_complete(new_table, break_shot):
-    """A body that trickles in is on the mover's clock; what the server does with it is not."""
+@pytest.mark.parametrize("accepted", [True, False])
+def test_the_clock_stops_when_the_body_is_complete(new_table, break_shot, accepted):
+    """A body that trickles in is on the mover's clock, whatever becomes of it; what the server does with it is not."""
     table = new_table(clock={"seconds": 100.0})
     mover, view = table.mover()
+    fetched = time.monotonic()
+    complete = []
 
     def trickle():
-        for part in (b"{", b" ", b"}"):
+        body = json.dumps(break_shot if accepted else {}).encode()
+        for part in (body[:1], body[1:-1], body[-1:]):
             time.sleep(0.2)
             yield part
+        complete.append(time.monotonic())
 
     headers = {
         "Content-Type": "application/json",
@@ -97,9 +103,15 @@ def test_the_clock_stops_when_the_body_is_complete(new_table, break_shot):
         "Idempotency-Key": "slow",
     }
     response = mover.request("POST", f"/v1/games/{view['game']}/shots", content=trickle(), headers=headers)
-    assert response.status_code == 422
-    answer = mover.act(view, break_shot).json()
-    assert answer["clocks"][view["seat"]]["seconds_left"] < 99.45
+    assert response.status_code == (200 if accepted else 422), response.text
+    if not accepted:
+        assert mover.act(view, break_shot).status_code == 200
+    (charge,) = mover.get(f"/v1/games/{view['game']}/clock").json()["charges"]
+    assert (charge["seat"], charge["move"]) == (view["seat"], 0)
+    assert charge["measured_ns"] > 0.6e9
+    assert charge["charged_ns"] == charge["measured_ns"] - 50_000_000
+    if accepted:
+        assert charge["measured_ns"] < 1e9 * (complete[0] - fetched) + 0.3e9
 
 
 def test_downtime_costs_nobody_anything(own_server, table_at):

@@ -10,6 +10,7 @@ import time
 import pytest
 import rfc8785
 from sqlalchemy import update
+from support.streams import until, watching
 
 from referee.record import verify_record
 from server.store.database import Database
@@ -202,6 +203,10 @@ def test_nothing_that_yields_noise_is_told_before_the_end(server, new_table, bre
     game = table.game
     paths = (f"/v1/games/{game}", f"/v1/games/{game}/shots", f"/v1/matches/{table.match['id']}")
     told += [table.organiser.get(path).text for path in paths]
+    for path in (f"/v1/games/{game}/stream", f"/v1/stream?game={game}"):
+        with watching(server, path) as events:
+            told += [json.dumps(event.data) for event in until(events, "connections")]
+    assert sum('"entry": 0' in text for text in told) == 1, "the stroke was told by the stream"
     while table.is_running:
         mover, view = table.mover()
         mover.post(f"/v1/games/{view['game']}/concede", version=view["version"])
