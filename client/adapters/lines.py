@@ -6,47 +6,77 @@ import select
 import signal
 import subprocess
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from client.errors import AgentFailed
 
 LONGEST_LINE = 1024 * 1024
-"""Bytes of one answer; a stroke needs two hundred."""
+"""Bytes of one answer unless told; a stroke needs two hundred."""
+CHUNK = 65_536
+"""Bytes read at a time."""
 LEAVING_SECONDS = 2.0
 """Seconds a command gets to leave after its input is closed, and once more after SIGTERM."""
+LOOK_EVERY = 0.25
+"""Seconds between looks whether a command that is silent still runs."""
 LAST_WORDS = 400
-"""Characters of its standard error that an error message repeats."""
+"""Bytes of its standard error that an error message repeats."""
+
+
+class Silent(AgentFailed):
+    """It gave no answer in time, or did not read what it was told."""
+
+
+class Left(AgentFailed):
+    """It has ended, or closed an end of its pipes."""
+
+
+class Flooded(AgentFailed):
+    """It wrote more than a line may have."""
 
 
 class LineProcess:
-    """A running command, its standard error in a file.
+    """A running command, in a session of its own.
 
     Args:
         command: program and arguments.
-        errors: the file; written to at its end.
+        errors: file for its standard error, written to at its end; nowhere if None.
+        name: what errors call it; the command unless given.
+        environment: variables beside those of this process.
+        longest: bytes of a line, and of all that it writes unasked.
 
     Raises:
-        AgentFailed: it cannot be started. All methods raise it when the command has left or takes too long.
+        AgentFailed: it cannot be started. Methods raise `Silent`, `Left` and `Flooded`; all deadlines are of
+            `time.monotonic`.
     """
 
-    def __init__(self, command: Sequence[str], errors: Path) -> None:
-        self._command = list(command)
+    def __init__(
+        self,
+        command: Sequence[str],
+        errors: Path | None,
+        *,
+        name: str | None = None,
+        environment: Mapping[str, str] | None = None,
+        longest: int = LONGEST_LINE,
+    ) -> None:
+        self._name = name or str(list(command))
         self._errors = errors
+        self._longest = longest
         self._pending = b""
         self._begun_unasked = False
         try:
-            with errors.open("ab") as sink:
+            with Path(errors or os.devnull).open("ab") as sink:
                 self._process = subprocess.Popen(
-                    self._command,
+                    list(command),
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
                     stderr=sink,
+                    env=os.environ | dict(environment or {}),
                     bufsize=0,
                     start_new_session=True,
                 )
         except OSError as error:
-            raise AgentFailed(f"{self._command} cannot be started: {error}") from error
+            raise AgentFailed(f"{self._name} cannot be started: {error}") from error
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         self._to, self._from = self._process.stdin.fileno(), self._process.stdout.fileno()
@@ -54,10 +84,12 @@ class LineProcess:
             os.set_blocking(end, False)
 
     def send(self, line: str, deadline: float) -> None:
-        """Write a line; `deadline` is of `time.monotonic`."""
+        """Write a line."""
         rest = memoryview(line.encode() + b"\n")
         while rest:
-            self._await(self._to, select.POLLOUT, deadline, "does not read its standard input")
+            left = deadline - time.monotonic()
+            if left <= 0.0 or not _is_ready(self._to, select.POLLOUT, left):
+                raise Silent(f"{self._name} does not read its standard input{self._words()}")
             try:
                 rest = rest[os.write(self._to, rest) :]
             except BlockingIOError:
@@ -68,13 +100,8 @@ class LineProcess:
     def receive(self, deadline: float) -> str:
         """The next line, without its end."""
         while b"\n" not in self._pending:
-            self._await(self._from, select.POLLIN, deadline, "gave no answer in time")
-            chunk = os.read(self._from, 65536)
-            if not chunk:
-                raise self._left()
-            self._pending += chunk
-            if len(self._pending) > LONGEST_LINE:
-                raise AgentFailed(f"{self._command} wrote a line of more than {LONGEST_LINE} bytes")
+            self._await_output(deadline)
+            self._read_more()
         line, _, self._pending = self._pending.partition(b"\n")
         if self._begun_unasked:
             self._begun_unasked = False
@@ -83,27 +110,36 @@ class LineProcess:
 
     def unasked(self) -> list[str]:
         """The lines it has written that nobody has read; they are gone then, and so is one it has only begun."""
-        while len(self._pending) <= LONGEST_LINE and self._is_ready(self._from, select.POLLIN, 0.0):
-            chunk = os.read(self._from, 65536)
-            if not chunk:
-                break
-            self._pending += chunk
+        with contextlib.suppress(Left):  # whoever speaks to it next is told
+            while _is_ready(self._from, select.POLLIN, 0.0):
+                self._read_more()
         *lines, self._pending = self._pending.split(b"\n")
         if self._pending:
             self._begun_unasked = True
             lines.append(self._pending)
         return [line.decode(errors="replace") for line in lines]
 
+    def interrupt(self) -> None:
+        """Kill it and what it has started, from any thread; whoever waits for its answer sees it end."""
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+
     def stop(self) -> None:
         """End it: its input is closed, then SIGTERM, then SIGKILL to it and what it has started."""
         if self._process.stdin is not None:
             self._process.stdin.close()
-        if self._has_left():
-            self._kill()
-            return
-        self._process.terminate()
-        self._has_left()
-        self._kill()
+        if not self._has_left():
+            self._process.terminate()
+            self._has_left()
+        self.kill()
+
+    def kill(self) -> None:
+        """End it and whatever it has started, at once."""
+        self.interrupt()
+        self._process.wait()
+        for pipe in (self._process.stdin, self._process.stdout):
+            if pipe is not None:
+                pipe.close()
 
     def _has_left(self) -> bool:
         try:
@@ -112,32 +148,47 @@ class LineProcess:
             return False
         return True
 
-    def _kill(self) -> None:
-        """Whatever is left of its process group."""
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(self._process.pid, signal.SIGKILL)
-        self._process.wait()
-        if self._process.stdout is not None:
-            self._process.stdout.close()
+    def _await_output(self, deadline: float) -> None:
+        """Wait until there is something to read.
 
-    def _await(self, end: int, event: int, deadline: float, otherwise: str) -> None:
-        left = deadline - time.monotonic()
-        if left <= 0.0 or not self._is_ready(end, event, left):
-            raise AgentFailed(f"{self._command} {otherwise}{self._words()}")
+        Its end is looked for by itself: a child that it left behind may hold its output open.
+        """
+        while (left := deadline - time.monotonic()) > 0.0:
+            has_left = self._process.poll() is not None
+            if _is_ready(self._from, select.POLLIN, 0.0 if has_left else min(left, LOOK_EVERY)):
+                return
+            if has_left:
+                raise self._left()
+        raise Silent(f"{self._name} gave no answer in time{self._words()}")
 
-    @staticmethod
-    def _is_ready(end: int, event: int, seconds: float) -> bool:
-        poll = select.poll()
-        poll.register(end, event)
-        return bool(poll.poll(seconds * 1000.0))
+    def _read_more(self) -> None:
+        chunk = os.read(self._from, CHUNK)
+        if not chunk:
+            raise self._left()
+        self._pending += chunk
+        if len(self._pending) > self._longest:
+            raise Flooded(f"{self._name} wrote a line of more than {self._longest} bytes")
 
-    def _left(self) -> AgentFailed:
-        """What to raise when it is gone, or has closed its output."""
+    def _left(self) -> Left:
+        """What to raise when it is gone, or has closed an end."""
         if not self._has_left():
-            return AgentFailed(f"{self._command} closed its standard output{self._words()}")
-        return AgentFailed(f"{self._command} left with exit code {self._process.returncode}{self._words()}")
+            return Left(f"{self._name} closed its standard output{self._words()}")
+        code = self._process.returncode
+        how = f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
+        return Left(f"{self._name} left with {how}{self._words()}")
 
     def _words(self) -> str:
         """Where its standard error is, and how that ends."""
-        said = self._errors.read_text(errors="replace").strip()[-LAST_WORDS:]
+        if self._errors is None or not self._errors.exists():
+            return ""
+        with self._errors.open("rb") as file:
+            file.seek(max(0, file.seek(0, os.SEEK_END) - LAST_WORDS))
+            said = file.read(LAST_WORDS).decode(errors="replace").strip()
         return f"; its standard error is in {self._errors}" + (f" and ends: {said}" if said else "")
+
+
+def _is_ready(end: int, event: int, seconds: float) -> bool:
+    """Whether a descriptor is ready within so many seconds; of any number, as `select` is not."""
+    poll = select.poll()
+    poll.register(end, event)
+    return bool(poll.poll(seconds * 1000.0))

@@ -3,6 +3,8 @@
 import contextlib
 import dataclasses
 import itertools
+import os
+import resource
 import sys
 import textwrap
 from pathlib import Path
@@ -93,6 +95,31 @@ def test_every_failure_has_its_own_end_and_costs_one_game(tmp_path, text, values
     for result, record in zip(done.results, done.records, strict=True):
         assert (result.reason, result.winner) == (reason, 1)
         assert verify_record(record.splitlines()).ok
+
+
+CONCEDE = """
+for line in sys.stdin:
+    if json.loads(line)["type"] == "turn":
+        print('{"decision": "concede"}', flush=True)
+"""
+
+
+@pytest.fixture
+def a_thousand_files():
+    """More open files than `select` has descriptors."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (min(hard, 4096), hard))
+    held = [os.open(os.devnull, os.O_RDONLY) for _ in range(1100)]
+    yield
+    for descriptor in held:
+        os.close(descriptor)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
+
+
+def test_a_process_is_heard_however_many_files_are_open(tmp_path, a_thousand_files):
+    """Seen: `select` raised for descriptors from 1024 on, and every answer was a bad one."""
+    done = pair_of(Hosting(script(tmp_path, CONCEDE)), Hosting("random"))
+    assert {result.reason for result in done.results} == {EndReason.CONCESSION}
 
 
 STUBBORN = """
