@@ -16,6 +16,8 @@ from multiprocessing.connection import wait
 from multiprocessing.context import SpawnProcess
 from types import FrameType
 
+from prometheus_client.multiprocess import mark_process_dead
+
 from server.errors import SettingsError, Unavailable
 from server.ops.metrics import SHARED_FOLDER
 from server.serve import announce, listening, serve_on
@@ -83,6 +85,7 @@ class _Supervisor:
         for place, process in enumerate(self._serving):
             if not process.is_alive():
                 log.error("server process %s died with %s; another takes its place", process.pid, process.exitcode)
+                mark_process_dead(process.pid)  # type: ignore[no-untyped-call]
                 time.sleep(PAUSE)
                 self._serving[place] = self._start()
 

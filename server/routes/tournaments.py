@@ -14,7 +14,7 @@ from referee.wire import (
     VoidRequest,
 )
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
-from server.routes.dependencies import ANYBODY, Authenticated, Cursor, Limit, Search, Sent, Server, respond
+from server.routes.dependencies import ANYBODY, Authenticated, Cursor, Limit, Place, Search, Sent, Server, respond
 from server.routes.describe import OWNED, describe
 from server.services import events, tournaments
 
@@ -36,7 +36,7 @@ def create(context: Server, command: Sent) -> Response:
 )
 def listing(
     context: Server,
-    cursor: Cursor,
+    after: Place,
     limit: Limit,
     search: Search,
     status: Annotated[
@@ -48,7 +48,7 @@ def listing(
     ] = None,
 ) -> TournamentList:
     """Of one status when asked for."""
-    return tournaments.listing(context, status, search, cursor, limit)
+    return tournaments.listing(context, status, search, after, limit)
 
 
 @router.get(

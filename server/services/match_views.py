@@ -1,8 +1,8 @@
 """Matches and games as lists and single answers show them."""
 
-from typing import Any
+from typing import Any, Final
 
-from sqlalchemy import Connection, Row, select
+from sqlalchemy import Connection, Row, Select, select
 
 from referee.game import Outcome
 from referee.play.clock import SECOND_NS
@@ -13,11 +13,17 @@ from server.services.time import date_time
 from server.store.rows import GameRow
 from server.store.tables import games
 
+_SUMMED: Final[Select[Any]] = select(
+    *(games.c.id, games.c.match_id, games.c.number, games.c.status, games.c.breaker, games.c.commitment),
+    *(games.c.noise_seed, games.c.state, games.c.started_at, games.c.ended_at),
+).order_by(games.c.number)
+"""What a summary needs of a game's row: the lines of its record, which are much longer, are not read for a list."""
+
 
 def view(connection: Connection, match: Row[Any]) -> MatchView:
     """A match with its games."""
     score = score_of(connection, match.id)
-    played = connection.execute(select(games).where(games.c.match_id == match.id).order_by(games.c.number))
+    played = connection.execute(_SUMMED.where(games.c.match_id == match.id))
     return MatchView(
         id=match.id,
         status=match.status,
@@ -36,14 +42,14 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
         first_breaker=match.first_breaker,
         score=score,
         winner=winner_of(match.status, score),
-        played=tuple(GameSummary(**summary(GameRow.of(row))) for row in played),
+        played=tuple(GameSummary(**summary(row)) for row in played),
         start=None if match.start is None else Position.model_validate(match.start),
         rated=match.rated,
         created_at=date_time(match.created_at),
     )
 
 
-def summary(row: GameRow) -> dict[str, Any]:
+def summary(row: GameRow | Row[Any]) -> dict[str, Any]:
     """The fields of a `GameSummary`; the noise seed is there once the game is over."""
     outcome = row.state["outcome"]
     return {

@@ -14,6 +14,7 @@ class Presence:
     def __init__(self) -> None:
         self._polls: Counter[str] = Counter()
         self._last: dict[str, int] = {}
+        """The end of each agent's last poll, the latest at the end."""
 
     def enter(self, agent: str) -> None:
         """A poll of this agent begins."""
@@ -21,7 +22,10 @@ class Presence:
 
     def leave(self, agent: str, now: int) -> None:
         """A poll of this agent ends."""
+        self._last.pop(agent, None)
         self._last[agent] = now
+        while now - self._last[longest_ago := next(iter(self._last))] >= LATELY:
+            del self._last[longest_ago]
         self._polls[agent] -= 1
         if self._polls[agent] <= 0:
             del self._polls[agent]

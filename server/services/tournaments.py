@@ -91,9 +91,11 @@ def entries(context: Context, tournament_id: str, caller: Caller, after: int, li
         return tournament_views.entries_page(events.entries_after(connection, row.id, after, limit + 1), limit)
 
 
-def listing(context: Context, status: str | None, search: str | None, cursor: int, limit: int) -> TournamentList:
+def listing(
+    context: Context, status: str | None, search: str | None, after: pages.Place | None, limit: int
+) -> TournamentList:
     """Events, the newest first, of one status or with a name when asked for; raises `Invalid`."""
-    query = select(tournaments).order_by(tournaments.c.created_at.desc(), tournaments.c.id)
+    query = select(tournaments)
     if status is not None:
         if status not in events.STATUSES:
             raise invalid_field("status", status, f"one of {', '.join(events.STATUSES)}")
@@ -101,9 +103,9 @@ def listing(context: Context, status: str | None, search: str | None, cursor: in
     if search is not None:
         query = query.where(pages.contains(tournaments.c.name, search) | (tournaments.c.id == search))
     with context.database.reading() as connection:
-        rows = connection.execute(query.offset(cursor).limit(limit + 1)).all()
-        found = tuple(tournament_views.summary(row) for row in rows[:limit])
-    return TournamentList(tournaments=found, next_cursor=str(cursor + limit) if len(rows) > limit else None)
+        rows = connection.execute(pages.newest_first(query, tournaments, after, limit)).all()
+    page, more = pages.cut(rows, limit)
+    return TournamentList(tournaments=tuple(tournament_views.summary(row) for row in page), next_cursor=more)
 
 
 def _created(writing: Writing, command: Command) -> Answer:

@@ -9,6 +9,7 @@ from referee.play import Charge, LagAllowance
 from server.errors import BudgetSpent, Forbidden, GameFinished, Invalid, KeyReused
 from server.security.callers import ORGANISER
 from server.services import heartbeat, ledger, simulations, verdicts
+from server.services.presence import Presence
 
 
 @pytest.fixture
@@ -248,3 +249,13 @@ def test_a_game_that_is_over_has_no_budget(stage):
     seats.concede()
     with pytest.raises(GameFinished):
         simulations.count(now.context, now.command(seats.ids[0]), seats.id, 1)
+
+
+def test_who_left_long_ago_is_not_remembered():
+    """An agent that polled once was kept for as long as the process lived."""
+    presence = Presence()
+    for number in range(1000):
+        presence.enter(f"agent_{number}")
+        presence.leave(f"agent_{number}", number * SECOND)
+    assert presence.here(999 * SECOND) == {f"agent_{number}" for number in range(990, 1000)}
+    assert len(presence._last) == 10

@@ -2,7 +2,9 @@
 
 import itertools
 import json
+import re
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -276,12 +278,42 @@ def test_a_process_that_is_killed_is_replaced(own_server, table_at):
     server.http.close()
     server.http = type(server.http)(base_url=server.url, timeout=30)
     table.play(2, seed=3)
-    end = time.monotonic() + 30
-    while len(present := workers_of(server)) < 2 or victims[0] in present:
-        assert time.monotonic() < end
-        time.sleep(0.2)
+    until_replaced(server, victims[0])
     assert server.stop() == 0
     assert "another takes its place" in server.log
+
+
+def test_what_a_process_was_answering_when_it_was_killed_is_not_in_progress_any_more(own_server, player_at):
+    server = own_server(options=("--processes", "2"))
+    request = f"GET /v1/turns?wait=60 HTTP/1.1\r\nHost: x\r\nAuthorization: Bearer {player_at(server).token}\r\n\r\n"
+    polls = [socket.create_connection(("127.0.0.1", server.port)) for _ in range(8)]
+    for poll in polls:
+        poll.sendall(request.encode())
+    end = time.monotonic() + 30
+    while in_progress(server) < 9:
+        assert time.monotonic() < end
+        time.sleep(0.1)
+    for victim in workers_of(server):
+        subprocess.run(["kill", "-9", str(victim)], check=True)
+        until_replaced(server, victim)
+    server.http.close()
+    server.http = type(server.http)(base_url=server.url, timeout=30)
+    assert in_progress(server) == 1, "this request itself"
+    for poll in polls:
+        poll.close()
+
+
+def in_progress(server):
+    """Requests being answered, by all processes together."""
+    found = re.search(r"^pooliad_requests_in_progress (\S+)$", server.request("GET", "/metrics").text, re.MULTILINE)
+    return float(found[1])
+
+
+def until_replaced(server, victim):
+    end = time.monotonic() + 30
+    while len(present := workers_of(server)) < 2 or victim in present:
+        assert time.monotonic() < end
+        time.sleep(0.2)
 
 
 def test_processes_end_with_their_parent(own_server):
