@@ -5,13 +5,11 @@ What a transaction adds is kept when it is committed, and not before: the number
 come again with something else behind them (SQLite).
 """
 
-import threading
-from collections import OrderedDict
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
+from server.services.latest import Latest
 from tournament import Standing, standings
 from tournament.ledger import Ledger
 from tournament.statistics import Rating, rate
@@ -43,27 +41,8 @@ class Course:
         return rate(event.counted, event.spec.names).table if event.counted else ()
 
 
-class Courses:
-    """The courses of the events that were asked for last, for all threads."""
+class Courses(Latest[Course]):
+    """The courses of the events that were asked for last."""
 
     def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._kept: OrderedDict[str, Course] = OrderedDict()
-
-    def get(self, tournament_id: str) -> Course | None:
-        """What is known of an event; there may be later entries."""
-        with self._lock:
-            if tournament_id in self._kept:
-                self._kept.move_to_end(tournament_id)
-            return self._kept.get(tournament_id)
-
-    def keep(self, courses: Mapping[str, Course]) -> None:
-        """Keep courses whose entries are committed, unless later ones are known already."""
-        with self._lock:
-            for tournament_id, course in courses.items():
-                known = self._kept.get(tournament_id)
-                if known is None or known.sequence < course.sequence:
-                    self._kept[tournament_id] = course
-                    self._kept.move_to_end(tournament_id)
-            while len(self._kept) > MOST_KEPT:
-                self._kept.popitem(last=False)
+        super().__init__(MOST_KEPT, lambda course: course.sequence)
