@@ -2,6 +2,7 @@
 
 import { get } from "./api.js";
 import { announce, el, fill } from "./dom.js";
+import { Latest } from "./latest.js";
 
 /** Time after the last letter before the server is asked, ms. */
 const PAUSE = 200;
@@ -24,8 +25,7 @@ export class PagedList {
     this.cursor = null;
     this.pages = 0;
     this.timer = 0;
-    /** Counts requests: an answer that comes after a later request's is not shown. */
-    this.asked = 0;
+    this.latest = new Latest();
     this.search = /** @type {HTMLInputElement} */ (el("input", {
       type: "search", maxlength: LONGEST_SEARCH, placeholder: "Search", "aria-label": `Search ${title.toLowerCase()}`,
       oninput: () => this.searched(),
@@ -53,17 +53,16 @@ export class PagedList {
 
   /** One page. @param {string | null} cursor */
   async ask(cursor) {
-    const mine = ++this.asked;
+    const signal = this.latest.ask();
     const wanted = this.search.value.trim();
     try {
-      const page = await get(this.address(wanted, cursor));
-      if (mine !== this.asked) return;
+      const page = await get(this.address(wanted, cursor), signal);
       this.rows = cursor ? [...this.rows, ...page[this.member]] : page[this.member];
       this.pages = cursor ? this.pages + 1 : 1;
       this.cursor = page.next_cursor ?? null;
       this.draw(wanted);
     } catch (error) {
-      if (mine === this.asked) announce(error instanceof Error ? error.message : "The server cannot be reached.");
+      if (!signal.aborted) announce(error instanceof Error ? error.message : "The server cannot be reached.");
     }
   }
 

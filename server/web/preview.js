@@ -1,6 +1,7 @@
 /** What the server says about a shot that is only thought of: the least elevation, and where the balls would go. */
 
 import { ProblemError, call } from "./api.js";
+import { Latest } from "./latest.js";
 
 /** Time after the last change before the server is asked, ms. */
 const PAUSE = 120;
@@ -10,8 +11,7 @@ export class Preview {
   constructor(show) {
     this.show = show;
     this.timer = 0;
-    /** @type {AbortController | null} */
-    this.asked = null;
+    this.latest = new Latest();
   }
 
   /**
@@ -27,22 +27,21 @@ export class Preview {
 
   cancel() {
     clearTimeout(this.timer);
-    this.asked?.abort();
+    this.latest.withdraw();
   }
 
   async send(table, balls, shot, lowest) {
-    const asked = new AbortController();
-    this.asked = asked;
-    const post = (path, body) => call("POST", path, { body, signal: asked.signal });
+    const signal = this.latest.ask();
+    const post = (path, body) => call("POST", path, { body, signal });
     try {
       const { phi, a, b } = shot;
       const elevation = lowest ? (await post("/v1/min-elevation", { table, balls, phi, a, b })).theta : shot.theta;
       if (elevation === null) return this.show(null, null, "The cue cannot get at the ball from here.");
       const theta = lowest ? Math.min(70, Math.ceil(elevation * 10) / 10 + 0.5) : elevation;
       const answer = await post("/v1/simulate", { table, balls, shot: { ...shot, theta }, trace: true });
-      if (this.asked === asked) this.show(answer, theta, answer.status === "at_rest" ? "" : answer.reason);
+      this.show(answer, theta, answer.status === "at_rest" ? "" : answer.reason);
     } catch (error) {
-      if (asked.signal.aborted) return;
+      if (signal.aborted) return;
       this.show(null, null, error instanceof ProblemError ? error.message : "The server cannot be reached.");
     }
   }

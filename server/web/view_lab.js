@@ -4,6 +4,7 @@ import { ProblemError, call, identity } from "./api.js";
 import { announce, el, fill, labelled } from "./dom.js";
 import { handle } from "./handling.js";
 import { density, heatPainter, noisy } from "./heat.js";
+import { Latest } from "./latest.js";
 import { mayLie } from "./placement.js";
 import { Preview } from "./preview.js";
 import { ShotForm } from "./shot_form.js";
@@ -38,6 +39,11 @@ export class LabView {
     /** @type {((context: any, projection: any) => void) | null} */
     this.heat = null;
     this.paths = null;
+    /** @type {any[] | null} the shot as noise played it */
+    this.rows = null;
+    this.spreading = new Latest();
+    /** Whether somebody has written a text that is not set up yet. */
+    this.typed = false;
   }
 
   open() {
@@ -90,11 +96,14 @@ export class LabView {
   textPart() {
     this.format = /** @type {HTMLSelectElement} */ (el("select", { onchange: () => this.writeText() },
       Object.keys(WRITERS).map((name) => el("option", { value: name }, name))));
-    this.text = /** @type {HTMLTextAreaElement} */ (el("textarea", { class: "code", spellcheck: "false", "aria-label": "Text" }));
+    this.text = /** @type {HTMLTextAreaElement} */ (el("textarea", {
+      class: "code", spellcheck: "false", "aria-label": "Text", oninput: () => { this.typed = true; },
+    }));
+    this.unread = el("p", { class: "refusal", role: "alert" });
     return el("fieldset", { class: "panel" }, el("legend", {}, "As text"),
       el("div", { class: "choices" }, labelled("Format", this.format),
         el("button", { type: "button", onclick: () => this.copy() }, "Copy"),
-        el("button", { type: "button", onclick: () => this.readText() }, "Set up from the notation")), this.text);
+        el("button", { type: "button", onclick: () => this.readText() }, "Set up from the notation")), this.text, this.unread);
   }
 
   hands() {
@@ -142,9 +151,9 @@ export class LabView {
   }
 
   changed() {
-    this.heat = this.paths = this.answer = null;
-    fill(this.problem);
-    fill(this.fallen);
+    this.heat = this.paths = this.answer = this.rows = null;
+    this.spreading.withdraw();
+    for (const said of [this.problem, this.fallen, this.unread]) fill(said);
     this.stage.rest(this.balls);
     this.preview.ask(TABLE, this.balls, this.form.shot, this.lowest.checked);
     this.writeText();
@@ -159,7 +168,7 @@ export class LabView {
     fill(this.outcome, answer ? [`${answer.n_events} events in ${answer.duration.toFixed(2)} s`, ...fallen].join("; ") : "");
     fill(this.events, (answer?.events ?? []).slice(0, 400).map((event) => el("li", { value: event.index }, `${event.time.toFixed(4)} s  ${describeEvent(event)}`)));
     this.stage.redraw();
-    this.writeText();
+    if (!this.typed) this.writeText();
   }
 
   /** @param {import("./table_picture.js").Scene} scene */
@@ -182,13 +191,15 @@ export class LabView {
 
   async spread() {
     const shots = Array.from({ length: VARIANTS }, () => noisy(this.form.shot, Number(this.level.value) || 0));
+    const signal = this.spreading.ask();
     try {
-      const { results } = await call("POST", "/v1/simulate/batch", { body: { table: "olympiad", balls: this.balls, shots } });
+      const { results } = await call("POST", "/v1/simulate/batch", { body: { table: "olympiad", balls: this.balls, shots }, signal });
       this.rows = results;
       this.drawHeat();
       fill(this.fallen, this.fallenText(results));
     } catch (error) {
-      fill(this.problem, error instanceof ProblemError ? error.message : "The server cannot be reached.");
+      if (signal.aborted) return;
+      fill(this.fallen, el("span", { class: "refusal" }, error instanceof ProblemError ? error.message : "The server cannot be reached."));
     }
   }
 
@@ -211,9 +222,9 @@ export class LabView {
     this.stage.redraw();
   }
 
-  /** Write the position and the shot, unless somebody is writing there. */
+  /** Write the position and the shot over whatever stands there. */
   writeText() {
-    if (document.activeElement === this.text) return;
+    this.typed = false;
     this.text.value = WRITERS[this.format.value](this.balls, this.form.shot);
   }
 
@@ -231,12 +242,13 @@ export class LabView {
       this.format.value = "Notation";
       this.changed();
     } catch (error) {
-      fill(this.problem, error instanceof Error ? error.message : String(error));
+      fill(this.unread, error instanceof Error ? error.message : String(error));
     }
   }
 
   close() {
     this.preview?.cancel();
+    this.spreading.withdraw();
     this.stage?.close();
   }
 }

@@ -332,6 +332,81 @@ def test_the_laboratory_simulates_spreads_and_writes(human):
     page.get_by_text("is no ball").wait_for()
 
 
+class HeldBack:
+    """Requests of a page that reach the server when the test says so."""
+
+    def __init__(self, page, pattern: str) -> None:
+        self.held: list | None = []
+        page.route(pattern, self._come)
+
+    def _come(self, route) -> None:
+        if self.held is None:
+            route.continue_()
+        else:
+            self.held.append(route)
+
+    def let_go(self) -> None:
+        held, self.held = self.held, None
+        for route in held or ():
+            route.continue_()
+
+
+@pytest.mark.parametrize("late", ["before it is read", "after it was read"])
+def test_a_late_preview_leaves_text_and_error_to_who_writes_a_notation(human, late):
+    """Seen: it wrote the position over what was typed, and wiped the reason why that is none."""
+    page = human.page
+    preview = HeldBack(page, "**/v1/simulate")
+    with page.expect_request("**/v1/simulate"):
+        page.goto(f"{human.server.url}/#/lab")
+    page.get_by_label("Text", exact=True).fill("3:x")
+    set_up = page.get_by_role("button", name="Set up from the notation")
+    if late == "before it is read":
+        set_up.focus()
+    else:
+        set_up.click()
+    preview.let_go()
+    page.get_by_text("events in").wait_for()
+    if late == "before it is read":
+        set_up.click()
+    assert page.get_by_text("is no ball").is_visible()
+    assert page.get_by_label("Text", exact=True).input_value() == "3:x"
+
+
+def test_the_laboratory_shows_no_spread_of_an_earlier_shot(human):
+    """Seen: one that was asked for before a change was shown after it; choosing a ball showed one from before it."""
+    page = human.page
+    page.goto(f"{human.server.url}/#/lab")
+    page.get_by_text("events in").wait_for()
+    spread, told = (
+        page.get_by_role("button", name="Play it 200 times"),
+        page.get_by_text(re.compile("Pocketed|No ball")),
+    )
+    spread.click()
+    told.wait_for()
+    shoot_faster(human)
+    before = picture(page)
+    page.get_by_label("Ends of").select_option("0")
+    assert picture(page) == before
+    answer = HeldBack(page, "**/v1/simulate/batch")
+    with page.expect_request("**/v1/simulate/batch"):
+        spread.click()
+    shoot_faster(human)
+    answer.let_go()
+    page.wait_for_timeout(1000)
+    assert not told.is_visible()
+
+
+def shoot_faster(hand: Hand) -> None:
+    """Another speed, and the preview of it."""
+    before = hand.page.get_by_text("events in").inner_text()
+    hand.fill("Cue speed, m/s", float(hand.page.get_by_label("Cue speed, m/s", exact=True).input_value()) + 0.5)
+    hand.page.get_by_text("events in").filter(has_not_text=before).wait_for()
+
+
+def picture(page) -> str:
+    return str(page.locator(".table canvas").evaluate("canvas => canvas.toDataURL()"))
+
+
 def test_a_house_bot_accepts_and_plays(new_page, own_server_with_bot):
     """An unrated game, with a seed of each player's in its draw."""
     page = new_page(reduced_motion="reduce")
