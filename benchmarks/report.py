@@ -45,7 +45,7 @@ def cited(line: dict[str, Any]) -> str:
     changed = ", with changes not committed" if line["uncommitted"] else ""
     return (
         f"*`benchmarks/results/{line['benchmark']}.jsonl`, line `{line['id']}`: {size}, "
-        f"commit `{line['commit']}`{changed}, "
+        f"commit `{line['commit']}`{changed}, kernels `{line['kernels'][:8]}`, "
         f"{machine['processor']}, {machine['cores']} cores, load {line['load_before']} before.*"
     )
 
