@@ -9,8 +9,9 @@ import threading
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 
-from sqlalchemy import Connection
+from sqlalchemy import Connection, Engine
 
+from server.errors import ServerError
 from server.store import outages, postgresql, sqlite
 from server.store.membership import AloneMembership, Membership, SharedMembership
 
@@ -41,7 +42,7 @@ class Database:
 
         Raises `Unavailable` when the database does not answer, as everything here does.
         """
-        with outages.told(), self._reader.connect() as connection:
+        with outages.told(), _connected(self._reader) as connection:
             yield connection
 
     @contextmanager
@@ -50,7 +51,7 @@ class Database:
 
         On SQLite, threads of this process queue on a lock rather than on the library's sleeping retries.
         """
-        with outages.told(), self._writer, self._engine.connect() as connection:
+        with outages.told(), self._writer, _connected(self._engine) as connection:
             writing = connection.execution_options(**sqlite.WRITING)
             with writing.begin():
                 yield writing
@@ -63,6 +64,23 @@ class Database:
     def dispose(self) -> None:
         """Close every connection."""
         self._engine.dispose()
+
+
+@contextmanager
+def _connected(engine: Engine) -> Iterator[Connection]:
+    """A connection of the pool; after a fault it does not go back there.
+
+    A result half read lives as long as the fault's traceback, and on SQLite it holds the snapshot it was read from:
+    whoever wrote through that connection next would be told at once that the database is locked.
+    """
+    with engine.connect() as connection:
+        try:
+            yield connection
+        except ServerError:
+            raise
+        except BaseException:
+            connection.invalidate()
+            raise
 
 
 class _WritersPlace:
