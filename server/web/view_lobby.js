@@ -41,8 +41,8 @@ export class LobbyView {
       el("div", { class: "lists" }, this.matches.element, this.tournaments.element, this.agents.element, this.next.element),
       el("section", { class: "drop", "aria-label": "Record file" },
         el("label", { for: "record-file" }, "Look at a record: drop the file anywhere on this page, or choose it"), this.file));
-    /** @type {string[]} */
-    this.games = [];
+    /** @type {string[] | null} the games that run; null until the server has said it */
+    this.games = null;
     this.stop = () => {};
     this.closed = false;
   }
@@ -60,8 +60,8 @@ export class LobbyView {
     const running = await get(`/v1/matches?status=running&limit=${LIVE}`).catch(() => null);
     if (!running || this.closed) return;
     const games = running.matches.flatMap((match) => match.played.filter((game) => game.status === "running").map((game) => game.id));
-    if (games.join() === this.games.join()) return;
-    const first = this.games.length === 0;
+    if (games.join() === this.games?.join()) return;
+    const first = this.games === null;
     this.games = games;
     this.stop();
     this.gallery.show(games);

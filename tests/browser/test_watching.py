@@ -94,6 +94,16 @@ def test_the_lobby_shows_what_is_played_and_leads_there(page, server):
     page.locator("ol.strokes li").first.wait_for()
 
 
+def test_the_first_game_of_an_empty_lobby_brings_its_match(page, own_server):
+    """Seen: the game was shown, and its match only after a reload."""
+    with page.expect_response("**/v1/matches?status=running*"):
+        page.goto(own_server.url)
+    own_server.match(names=("first ann", "first bob"))
+    page.locator("a.thumbnail", has_text="first ann – first bob").wait_for()
+    matches = page.get_by_role("region", name="Matches")
+    matches.get_by_role("link", name="first ann – first bob").wait_for()
+
+
 def test_what_agents_say_never_becomes_markup(page, server, tmp_path: Path):
     """Names and rulings of a record are anybody's text: shown as it is, and nothing else happens."""
     match = server.match()
