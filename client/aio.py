@@ -242,5 +242,5 @@ class AsyncPooliad:
             return None
         try:
             return await self._http.request(step.method, step.path, **step.arguments())
-        except httpx2.TransportError as error:
+        except httpx2.RequestError as error:
             return error

@@ -3,7 +3,7 @@
 ::
 
     PooliadError
-    ├── ConnectionFailed        no answer: refused, reset, timed out
+    ├── ConnectionFailed        no answer: refused, reset, timed out, garbled on its way
     ├── UnexpectedAnswer        an answer that is not of this protocol
     ├── AgentNotFound           no agent of this name, no such import path
     ├── AgentFailed             the command of an agent left, was silent, or answered nonsense
@@ -54,7 +54,7 @@ class PooliadError(Exception):
 
 
 class ConnectionFailed(PooliadError):
-    """No answer came; the cause is the transport's exception.
+    """No answer came, or none that can be decoded; the cause is the exception of `httpx2`.
 
     Attributes:
         method, path: the request that was left without an answer.

@@ -65,8 +65,8 @@ class Wait:
 
 
 Step = Call[Any] | Wait
-Outcome = httpx2.Response | httpx2.TransportError | None
-"""What came of a step: a response, no response, or None after a pause."""
+Outcome = httpx2.Response | httpx2.RequestError | None
+"""What came of a step: a response, none that can be read, or None after a pause."""
 
 
 def exchange(call: Call[Answer], retry: Retry) -> Generator[Step, Outcome, Answer]:

@@ -245,5 +245,5 @@ class Pooliad:
             return None
         try:
             return self._http.request(step.method, step.path, **step.arguments())
-        except httpx2.TransportError as error:
+        except httpx2.RequestError as error:
             return error

@@ -18,6 +18,11 @@ def problem(status: int, code: ProblemCode, **headers: str) -> httpx2.Response:
     return httpx2.Response(status, content=body, headers={"Retry-After": "0"} | headers)
 
 
+def garbled(status: int) -> httpx2.Response:
+    """An answer whose body is not in the encoding that its header names."""
+    return httpx2.Response(status, headers={"Content-Encoding": "gzip"}, stream=httpx2.ByteStream(b"no gzip"))
+
+
 def test_the_token_is_sent_with_every_request(make, script):
     answers = script(httpx2.Response(200, json=AGENTS))
     make(token="secret", transport=answers.transport).agents()
@@ -40,8 +45,10 @@ def test_without_a_token_nothing_is_claimed(make, script):
         lambda: httpx2.ConnectError("refused"),
         lambda: httpx2.ReadTimeout("slow"),
         lambda: httpx2.RemoteProtocolError("cut off"),
+        lambda: garbled(200),
+        lambda: garbled(404),
     ],
-    ids=["503", "429", "408", "502", "refused", "slow", "cut-off"],
+    ids=["503", "429", "408", "502", "refused", "slow", "cut-off", "garbled", "garbled-problem"],
 )
 def test_a_read_is_repeated_after_a_passing_failure(make, script, pauses, failure):
     answers = script(failure(), httpx2.Response(200, json=AGENTS))
@@ -58,6 +65,13 @@ def test_a_write_is_repeated_with_one_key(make, script, pauses):
     keys = [request.headers["Idempotency-Key"] for request in answers.requests]
     assert len(keys) == 4
     assert len(set(keys)) == 1
+
+
+def test_an_answer_that_cannot_be_decoded_is_none(make, script):
+    """Seen: the exception of the HTTP library came through."""
+    answers = script(garbled(201))
+    with pytest.raises(errors.ConnectionFailed, match=r"POST /v1/agents.*DecodingError"):
+        make(transport=answers.transport).register("me")
 
 
 def test_two_writes_have_two_keys(make, script):
