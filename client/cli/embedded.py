@@ -33,7 +33,7 @@ def start(started: list[Child], directory: Path) -> Embedded:
     child = Child("server", command, directory / "server.log", {"POOLIAD_ORGANISER_TOKEN": token})
     started.append(child)
     deadline = time.monotonic() + START_SECONDS
-    while (url := _announced(child.log)) is None:
+    while (url := _announced(child)) is None:
         if child.exit_code is not None:
             fail(f"the server left with exit code {child.exit_code}:\n{child.last_words()}")
         if time.monotonic() > deadline:
@@ -42,9 +42,9 @@ def start(started: list[Child], directory: Path) -> Embedded:
     return Embedded(url, token)
 
 
-def _announced(log: Path) -> str | None:
+def _announced(server: Child) -> str | None:
     """The address in the server's first line, once it is there."""
-    for line in log.read_text(errors="replace").splitlines():
+    for line in server.written():
         if line.startswith("{") and line.endswith("}"):
             said = json.loads(line)
             if said.get("event") == "listening":

@@ -19,12 +19,13 @@ PATIENCE = 10.0
 
 
 class Child:
-    """A process with its standard error, and its output, in a file."""
+    """A process with its standard error, and its output, in a file, behind what earlier ones wrote there."""
 
     def __init__(self, name: str, command: Sequence[str], log: Path, environment: Mapping[str, str]) -> None:
         self.name = name
-        self.log = log
-        with log.open("wb") as sink:
+        self._log = log
+        with log.open("ab") as sink:
+            self._begin = sink.tell()
             self._process = subprocess.Popen(
                 confined(command, orphaned=signal.SIGTERM),
                 stdin=subprocess.DEVNULL,
@@ -52,10 +53,15 @@ class Child:
                 self._process.kill()
                 self._process.wait()
 
+    def written(self) -> list[str]:
+        """The lines it has written."""
+        with self._log.open("rb") as log:
+            log.seek(self._begin)
+            return log.read().decode(errors="replace").splitlines()
+
     def last_words(self, lines: int = 15) -> str:
         """The end of what it wrote, for an error message."""
-        written = self.log.read_text(errors="replace").splitlines()
-        return "\n".join(f"  {self.name}: {line}" for line in written[-lines:]) or f"  {self.name} wrote nothing"
+        return "\n".join(f"  {self.name}: {line}" for line in self.written()[-lines:]) or f"  {self.name} wrote nothing"
 
 
 @contextlib.contextmanager

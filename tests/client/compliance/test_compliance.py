@@ -79,6 +79,12 @@ def test_the_other_agents_pass_everything(server_installed, agent):
     assert (done.returncode, faulty) == (0, [])
 
 
+def test_the_log_of_every_run_is_kept(hall, tmp_path):
+    """An agent that left is started anew for the next situation."""
+    checked(hall, tmp_path, [sys.executable, str(BAD), "crashes"], [BY_NAME["open table"], BY_NAME["groups"]])
+    assert (tmp_path / "agent.log").read_text().count("something is wrong with me") == 2
+
+
 @pytest.mark.parametrize(("fault", "kept"), [("refused", True), ("none", False)])
 def test_what_was_written_meanwhile_stays_if_there_are_faults(server_installed, tmp_path, fault, kept):
     command = [sys.executable, "-m", "client.cli", "agent", "check", "--only", "groups", "--json"]
