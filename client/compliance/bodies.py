@@ -23,6 +23,8 @@ def read_body(headers: Mapping[str, str], stream: BufferedIOBase) -> bytes:
     coding = headers.get("transfer-encoding")
     if coding is None:
         return _exactly(stream, _number(_DECIMAL, headers.get("content-length", "0"), 10))
+    if "content-length" in headers:  # 6.1: perhaps one request smuggled within another; a server refuses it too
+        raise ValueError("two lengths: both Content-Length and Transfer-Encoding; allowed: one of them")
     if coding.strip().lower() != "chunked":
         raise ValueError(f"Transfer-Encoding: {coding!r}; allowed: chunked")
     return b"".join(_chunks(stream))

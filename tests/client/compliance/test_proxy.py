@@ -58,6 +58,7 @@ def test_an_agent_that_sends_its_actions_in_chunks_passes(hall, tmp_path):
         "Transfer-Encoding: chunked\r\n\r\n-2\r\n{}\r\n0\r\n",
         "Transfer-Encoding: chunked\r\n\r\n2\r\n{}..0\r\n",
         "Transfer-Encoding: chunked\r\n\r\n2\r\n{}\r\n",
+        "Content-Length: 12\r\nTransfer-Encoding: chunked\r\n\r\n2\r\n{}\r\n0\r\n",
     ],
 )
 def test_a_body_of_no_length_is_answered_400(proxy, framing):
