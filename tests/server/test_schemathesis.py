@@ -10,7 +10,14 @@ import sys
 import pytest
 
 CONFIG = """
-# What a schema cannot say: balls that overlap, a ball that may not be called, an agent that is not registered.
+# No schema can say that an Idempotency-Key, else optional, is needed where the body names a game.
+[[operations]]
+include-path-regex = "^/v1/simulate"
+checks.positive_data_acceptance.expected-statuses = ["2xx", 400, 401, 403, 404, 409, 412, 422]
+checks.negative_data_rejection.expected-statuses = ["4xx"]
+checks.missing_required_header.expected-statuses = [400, 401, 403, 404, 428]
+
+# Nor that balls overlap, a ball that may not be called, an agent that is not registered.
 [[operations]]
 include-method = "POST"
 checks.positive_data_acceptance.expected-statuses = ["2xx", 401, 403, 404, 409, 412, 422]
