@@ -90,7 +90,7 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
 
     config = uvicorn.Config(
         app,
-        http=http_protocol(settings.header_seconds, settings.unread_seconds, settings.address_connections),
+        http=http_protocol(settings),
         ws="none",
         lifespan="on",
         access_log=False,

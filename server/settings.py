@@ -63,6 +63,7 @@ class Settings:
     stream_keepalive: float = setting(15.0, "between comments in a stream that is silent")
     header_seconds: float = setting(10.0, "a request's headers must be complete after")
     unread_seconds: float = setting(30.0, "an answer of which nobody reads 64 kB in so long is given up")
+    held_answers: int = setting(256 * 1024 * 1024, "bytes of all answers that wait to be read at once")
     address_connections: int = setting(
         2000, "connections of one address at once; 0: any number, as behind a proxy", zero=True
     )

@@ -13,6 +13,8 @@ from typing import ClassVar
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from server.settings import Settings
+
 TIMED_OUT = b"HTTP/1.1 408 Request Timeout\r\nconnection: close\r\ncontent-length: 0\r\n\r\n"
 TOO_MANY = (
     b"HTTP/1.1 429 Too Many Requests\r\nconnection: close\r\nretry-after: 1\r\ncontent-type: text/plain\r\n"
@@ -23,33 +25,43 @@ LEAST_READ = 64 * 1024
 """Bytes."""
 
 
-def http_protocol(header_seconds: float, unread_seconds: float, most: int) -> type[H11Protocol]:
-    """uvicorn's protocol, bounded.
+class Unread:
+    """Bytes of answers that wait to be read, of all connections of this process together.
 
     Args:
-        header_seconds: from the connection, or from the first byte of a later request on it, to the end of the headers.
-        unread_seconds: in which `LEAST_READ` bytes of an answer that waits must be read.
-        most: connections that an address may have open at once; 0: any number.
+        most: of them.
     """
 
-    members = {
-        "header_seconds": header_seconds,
-        "unread_seconds": unread_seconds,
-        "most_of_an_address": most,
-        "open_by_address": Counter(),
-    }
+    def __init__(self, most: int) -> None:
+        self._most = most
+        self._waiting: dict[object, int] = {}
+
+    def is_too_much(self, connection: object, waiting: int) -> bool:
+        """Whether with so many bytes of this connection there are more than allowed; else they are noted."""
+        if waiting + sum(self._waiting.values()) - self._waiting.get(connection, 0) > self._most:
+            return True
+        self._waiting[connection] = waiting
+        return False
+
+    def forget(self, connection: object) -> None:
+        """Nothing of this connection waits any more."""
+        self._waiting.pop(connection, None)
+
+
+def http_protocol(settings: Settings) -> type[H11Protocol]:
+    """uvicorn's protocol, bounded: the class, with what the connections of one server share."""
+    members = {"settings": settings, "open_by_address": Counter(), "unread": Unread(settings.held_answers)}
     return type("Bounded", (_Bounded,), members)
 
 
 class _Bounded(H11Protocol):
-    """A connection whose headers have a deadline, one of its address's few."""
+    """A connection whose headers have a deadline and whose answers must be read, one of its address's few."""
 
-    header_seconds: ClassVar[float]
-    unread_seconds: ClassVar[float]
-    most_of_an_address: ClassVar[int]
+    settings: ClassVar[Settings]
     open_by_address: ClassVar[Counter[str]]
+    unread: ClassVar[Unread]
     _deadline: asyncio.TimerHandle | None = None
-    _unread: asyncio.TimerHandle | None = None
+    _reading: asyncio.TimerHandle | None = None
     _address: str | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
@@ -57,7 +69,7 @@ class _Bounded(H11Protocol):
         super().connection_made(transport)
         self._address = str((transport.get_extra_info("peername") or ("unknown",))[0])
         self.open_by_address[self._address] += 1
-        if 0 < self.most_of_an_address < self.open_by_address[self._address]:
+        if 0 < self.settings.address_connections < self.open_by_address[self._address]:
             transport.write(TOO_MANY)
             transport.close()
         else:
@@ -84,30 +96,35 @@ class _Bounded(H11Protocol):
     def pause_writing(self) -> None:
         """More is written than is being read."""
         super().pause_writing()
-        self._await_reader()
+        waiting = self.transport.get_write_buffer_size()
+        if self.unread.is_too_much(self, waiting):
+            self.transport.abort()
+        else:
+            self._await_reader(waiting)
 
     def resume_writing(self) -> None:
         """It was read."""
         super().resume_writing()
         self._stop_watching()
 
-    def _await_reader(self) -> None:
-        waiting = self.transport.get_write_buffer_size()
-        self._unread = self.loop.call_later(self.unread_seconds, self._require_read, waiting)
+    def _await_reader(self, waiting: int) -> None:
+        self._reading = self.loop.call_later(self.settings.unread_seconds, self._require_read, waiting)
 
     def _require_read(self, waiting: int) -> None:
-        if self.transport.get_write_buffer_size() > waiting - LEAST_READ:
+        left = self.transport.get_write_buffer_size()
+        if left > waiting - LEAST_READ or self.unread.is_too_much(self, left):
             self.transport.abort()
         else:
-            self._await_reader()
+            self._await_reader(left)
 
     def _stop_watching(self) -> None:
-        if self._unread is not None:
-            self._unread.cancel()
-            self._unread = None
+        self.unread.forget(self)
+        if self._reading is not None:
+            self._reading.cancel()
+            self._reading = None
 
     def _await_headers(self) -> None:
-        self._deadline = self.loop.call_later(self.header_seconds, self._give_up)
+        self._deadline = self.loop.call_later(self.settings.header_seconds, self._give_up)
 
     def _stop_waiting(self) -> None:
         if self._deadline is not None:

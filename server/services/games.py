@@ -17,6 +17,7 @@ from server.security import keys
 from server.services import draws, notices, turn_clock
 from server.services.context import Writing
 from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of
+from server.store.database import Overtaken
 from server.store.tables import charges, games, matches
 
 log = logging.getLogger("pooliad.server.games")
@@ -74,7 +75,7 @@ class TurnEnd:
     move: int | None = None
 
 
-class Moved(Exception):
+class Moved(Overtaken):
     """The game, or its running clock, is not any more as it was read."""
 
 

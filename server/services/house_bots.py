@@ -9,6 +9,7 @@ import signal
 import sys
 from asyncio.subprocess import DEVNULL, PIPE, STDOUT, Process
 from collections.abc import AsyncIterator
+from functools import partial
 
 from starlette.concurrency import run_in_threadpool
 
@@ -102,7 +103,7 @@ class House:
     async def _is_still_ours(self, agent_id: str) -> bool:
         """Whether no other process has taken the bot; nobody can while the database does not answer."""
         try:
-            return await run_in_threadpool(house.renew, self._context, agent_id, self._holder)
+            return await self._context.run_aside(partial(house.renew, self._context, agent_id, self._holder))
         except Unavailable:
             return True
 

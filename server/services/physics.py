@@ -22,7 +22,8 @@ Answer = TypeVar("Answer")
 
 
 LONGEST_SECONDS = 20.0
-"""A batch takes no longer: ordinary shots take a quarter of a second, and some tables have shots of 10^5 events."""
+"""A batch takes no longer, as is looked at every 64 shots: ordinary ones take a quarter of a second, and some tables
+have shots of 10^5 events."""
 LONGEST_TRACE = 20_000
 """Events of an answer, some 8 MB of JSON."""
 

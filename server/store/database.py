@@ -66,6 +66,10 @@ class Database:
         self._engine.dispose()
 
 
+class Overtaken(Exception):
+    """Somebody else was faster: the transaction is rolled back, to be tried again. No fault."""
+
+
 @contextmanager
 def _connected(engine: Engine) -> Iterator[Connection]:
     """A connection of the pool; after a fault it does not go back there.
@@ -76,7 +80,7 @@ def _connected(engine: Engine) -> Iterator[Connection]:
     with engine.connect() as connection:
         try:
             yield connection
-        except ServerError:
+        except (ServerError, Overtaken):
             raise
         except BaseException:
             connection.invalidate()

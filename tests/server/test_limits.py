@@ -107,14 +107,14 @@ def simulations(token, shots):
     return f"{head}content-type: application/json\r\ncontent-length: {len(body)}\r\n\r\n".encode() + body
 
 
-def unread(server, shots=10_000):
+def unread(server, name="ann", shots=10_000, batches=8):
     """A connection on which the server has more to say than anybody's buffers hold."""
-    token = server.request("POST", "/v1/agents", json={"name": "ann"}).json()["token"]
+    token = server.request("POST", "/v1/agents", json={"name": name}).json()["token"]
     connection = socket.socket()
     connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     connection.settimeout(30)
     connection.connect(("127.0.0.1", server.port))
-    connection.sendall(simulations(token, shots) * 8)
+    connection.sendall(simulations(token, shots) * batches)
     return connection
 
 
@@ -124,6 +124,17 @@ def test_an_answer_that_nobody_reads_is_given_up(own_server):
         while time.monotonic() < start + 20 and not closed(connection):
             time.sleep(0.1)
         assert closed(connection)
+
+
+def test_answers_that_wait_to_be_read_are_bounded_together(own_server):
+    """Whoever comes beyond the bound is closed, whoever waits within it is not."""
+    server = own_server(POOLIAD_HELD_ANSWERS="20000000")
+    with unread(server, "ann", batches=1) as first, unread(server, "bob", batches=8) as second:
+        start = time.monotonic()
+        while time.monotonic() < start + 20 and not closed(second):
+            time.sleep(0.1)
+        assert closed(second)
+        assert not closed(first)
 
 
 def test_an_answer_that_is_read_slowly_is_not(own_server):

@@ -187,10 +187,12 @@ def batch(shots):
 
 
 def test_a_batch_that_takes_too_long_is_ended(monkeypatch):
-    monkeypatch.setattr(service, "LONGEST_SECONDS", 0.0)
+    times = iter([0.0, 1.0, 2.0, 30.0])
+    monkeypatch.setattr(service.time, "monotonic", lambda: next(times))
     with pytest.raises(Invalid) as refused:
-        service.simulate_batch(batch(200))
+        service.simulate_batch(batch(1000))
     assert refused.value.extensions["field"] == "shots"
+    assert next(times, None) is None, "it was ended at its third look, and not before"
 
 
 def test_a_batch_that_nobody_waits_for_any_more_is_ended():
