@@ -16,7 +16,7 @@ from client.arena.process import ProcessSeat
 from client.arena.runner import Observer
 from client.arena.table import LONGEST_REPORT
 from client.arena.terms import Terms
-from client.errors import ApiError, NameTaken, PooliadError, Unprocessable
+from client.errors import ApiError, BudgetSpent, NameTaken, PooliadError, Unprocessable
 from client.http import Pooliad
 from client.retry import Retry
 from referee import Action, EndReason, Outcome, SimulationBudget
@@ -264,7 +264,7 @@ class _Player:
         simulated = self._budget.used - self._declared
         try:
             answer = server.play(view.game, view.version, action, simulated=simulated)
-        except (Unprocessable, ValidationError) as error:
+        except (Unprocessable, BudgetSpent, ValidationError) as error:
             seat.refused(str(error))
             self._count_bad(view, error)
         except PooliadError as error:
@@ -281,6 +281,9 @@ class _Player:
             self._game, self._declared, self._bad = view.game, 0, 0
             self._budget = SimulationBudget(None if clock is None else clock.simulations_left)
             seat.begin(self._budget)
+        if clock is not None and clock.simulations_left is not None and self._budget.allowed is not None:
+            # An action whose answer was lost may have been carried out: the server knows what was declared.
+            self._declared = self._budget.allowed - clock.simulations_left
         try:
             return seat.ask(view, clock.seconds_left if clock and self._runner.has_clocks else None)
         except Lost as lost:

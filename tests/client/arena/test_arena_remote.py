@@ -3,6 +3,7 @@
 import json
 import sys
 
+import httpx2
 import pytest
 
 import client
@@ -12,6 +13,7 @@ from client.arena.journal import Journal
 from client.arena.remote import RemoteRunner
 from client.arena.runner import Runner
 from client.arena.terms import Terms
+from client.errors import BudgetSpent, ConnectionFailed
 from referee.record import read_record, verify_record
 from referee.wire import Turn, VoidRequest
 
@@ -98,6 +100,54 @@ def test_an_agent_that_crashes_loses_for_that_reason_at_a_server_too(tmp_path, h
     directory = begin(tmp_path / "cup", entrants=["random", bad])
     ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
     assert {(one.reason.value, one.players[one.winner]) for one in ledger.event.counted} == {("crash", "random")}
+
+
+def test_whose_declaration_is_always_refused_loses_at_last(tmp_path, hall, monkeypatch):
+    """Seen: it was no bad answer, so that the same one was sent until the clock was out, with an incident each."""
+    refusal = httpx2.Response(409, request=httpx2.Request("POST", "http://here/v1/games/g/shots"))
+
+    def spent(*_, **__):
+        raise BudgetSpent(refusal, None)
+
+    monkeypatch.setattr(client.Pooliad, "play", spent)
+    directory = begin(tmp_path / "cup", seconds=20.0)
+    ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
+    assert [one.reason.value for one in ledger.event.counted] == ["forfeit"] * 2
+
+
+THRIFTY = """
+from client import Action
+from client.agents.random_agent import RandomAgent
+from physics import Shot
+
+class Thrifty(RandomAgent):
+    turns = 0
+
+    def choose(self, view):
+        self.turns += 1
+        if self.turns == 1:
+            for _ in range(2):
+                self.simulator.simulate(view.table_model(), view.state, Shot(phi=90.0, v=1.0))
+        return super().choose(view) if self.turns < 3 else Action(decision="concede")
+"""
+
+
+def test_shots_whose_declaration_was_carried_out_unanswered_are_not_declared_again(tmp_path, hall, monkeypatch):
+    """Seen: the count lagged behind the server's for the rest of the game, until the server took no action more."""
+    play, declared = client.Pooliad.play, []
+
+    def unanswered(self, game, version, action, *, simulated=0):
+        declared.append(simulated)
+        play(self, game, version, action, simulated=simulated)
+        raise ConnectionFailed("POST", f"/v1/games/{game}", TimeoutError())
+
+    monkeypatch.setattr(client.Pooliad, "play", unanswered)
+    (tmp_path / "thrifty.py").write_text(THRIFTY)
+    entrants = ["random", {"name": "thrifty", "agent": "thrifty:Thrifty"}]
+    hosting = {"thrifty": {"environment": {"PYTHONPATH": str(tmp_path)}}}
+    directory = begin(tmp_path / "cup", entrants=entrants, hosting=hosting, simulated_shots=3, seconds=20.0)
+    RemoteRunner(directory, hall.url, hall.organiser_token).run()
+    assert [count for count in declared if count] == [2, 2]
 
 
 class Unplugged(BaseException):
