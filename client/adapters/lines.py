@@ -32,7 +32,7 @@ class Left(AgentFailed):
 
 
 class Flooded(AgentFailed):
-    """It wrote more than a line may have."""
+    """It wrote more than a line may have, or more unasked."""
 
 
 class LineProcess:
@@ -95,7 +95,7 @@ class LineProcess:
             except BlockingIOError:
                 continue
             except BrokenPipeError:
-                raise self._left() from None
+                raise self._left("input") from None
 
     def receive(self, deadline: float) -> str:
         """The next line, without its end."""
@@ -108,11 +108,17 @@ class LineProcess:
             return self.receive(deadline)
         return line.decode(errors="replace")
 
-    def unasked(self) -> list[str]:
-        """The lines it has written that nobody has read; they are gone then, and so is one it has only begun."""
-        with contextlib.suppress(Left):  # whoever speaks to it next is told
-            while _is_ready(self._from, select.POLLIN, 0.0):
-                self._read_more()
+    def unasked(self, *, forbearing: bool = False) -> list[str]:
+        """The lines it has written that nobody has read; they are gone then, and so is one it has only begun.
+
+        Args:
+            forbearing: of too much only the beginning is read, and `Flooded` is not raised.
+        """
+        while _is_ready(self._from, select.POLLIN, 0.0):
+            if forbearing and len(self._pending) + CHUNK > self._longest:
+                break
+            if not self._has_read():  # it has closed its output: whoever speaks to it next is told
+                break
         *lines, self._pending = self._pending.split(b"\n")
         if self._pending:
             self._begun_unasked = True
@@ -162,17 +168,21 @@ class LineProcess:
         raise Silent(f"{self._name} gave no answer in time{self._words()}")
 
     def _read_more(self) -> None:
-        chunk = os.read(self._from, CHUNK)
-        if not chunk:
+        if not self._has_read():
             raise self._left()
+
+    def _has_read(self) -> bool:
+        """Read a chunk; False at the end of its output."""
+        chunk = os.read(self._from, CHUNK)
         self._pending += chunk
         if len(self._pending) > self._longest:
-            raise Flooded(f"{self._name} wrote a line of more than {self._longest} bytes")
+            raise Flooded(f"{self._name} wrote more than {self._longest} bytes")
+        return bool(chunk)
 
-    def _left(self) -> Left:
-        """What to raise when it is gone, or has closed an end."""
+    def _left(self, end: str = "output") -> Left:
+        """What to raise when it is gone, or has closed this end."""
         if not self._has_left():
-            return Left(f"{self._name} closed its standard output{self._words()}")
+            return Left(f"{self._name} closed its standard {end}{self._words()}")
         code = self._process.returncode
         how = f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
         return Left(f"{self._name} left with {how}{self._words()}")

@@ -82,7 +82,7 @@ class StdioAgent(Agent):
         deadline = time.monotonic() + self._seconds(view)
         process = self._running(view, deadline)
         try:
-            for line in process.unasked():
+            for line in process.unasked(forbearing=True):
                 log.warning("game %s: %s wrote unasked: %s", view.game, list(self._command), line[:SHOWN])
             self._turn += 1
             process.send(_message("turn", turn=self._turn, game=view.game, view=_plain(view)), deadline)

@@ -185,7 +185,7 @@ for _ in range(2):
         ('turn(); say(\'{"shot": {"v": NaN}}\')', "shot.v"),
         ('turn(); say(\'{"decision": "resign"}\')', "decision"),
         ("turn(); say('[' * 100000)", "no JSON"),
-        ("turn(); say('x' * 3000000)", "line of more than"),
+        ("turn(); say('x' * 3000000)", "wrote more than"),
     ],
 )
 def test_what_a_command_does_wrong_is_said(asked, program, words):
