@@ -3,6 +3,7 @@
 import { ProblemError, call, command, get, identity, newKey, newSeed, signOut, token } from "./api.js";
 import { Aiming } from "./aiming.js";
 import { announce, el, fill, labelled } from "./dom.js";
+import { Latest } from "./latest.js";
 import { signInPanel } from "./sign_in.js";
 import { GameView } from "./view_game.js";
 
@@ -26,6 +27,8 @@ export class PlayView {
     this.turn = null;
     this.closed = false;
     this.polls = new AbortController();
+    /** The choice of an opponent on show: withdrawn by a match, and by the next. */
+    this.choice = new Latest();
     /** @type {string | null} */
     this.match = null;
   }
@@ -33,17 +36,18 @@ export class PlayView {
   open() {
     const me = identity();
     if (!me) return fill(this.top, el("h1", {}, "Play"), signInPanel(() => this.open()));
-    this.chooseOpponent(me);
-    return this.continueMatch(me);
+    return this.continueMatch(me, this.chooseOpponent(me));
   }
 
-  /** A match that is on already, of this tab or another. */
-  async continueMatch(me) {
+  /** A match that is on already, of this tab or another. @param {AbortSignal} choice for which it is asked */
+  async continueMatch(me, choice) {
     const { matches } = await get(`/v1/matches?agent=${me.id}&status=running`);
-    if (matches.length && !this.closed) this.enter(matches[0].id);
+    if (matches.length && !choice.aborted) this.enter(matches[0].id);
   }
 
+  /** @returns {AbortSignal} aborted once this choice is over */
   chooseOpponent(me) {
+    const choice = this.choice.ask();
     this.problem = el("p", { class: "refusal", role: "alert" });
     this.noise = /** @type {HTMLSelectElement} */ (el("select", {},
       [["0", "none"], ["0.5", "half"], ["1", "as in tournaments"]].map(([value, name]) => el("option", { value, selected: value === "0.5" }, name))));
@@ -61,7 +65,8 @@ export class PlayView {
             labelled("Name of the player", name), el("button", {}, "Challenge"))),
         el("section", { class: "panel", "aria-label": "Challenges" }, el("h2", {}, "Challenges to you"), challenges)));
     this.showBots(bots);
-    this.lookOut(challenges, me);
+    this.lookOut(challenges, me, choice);
+    return choice;
   }
 
   async showBots(place) {
@@ -71,14 +76,14 @@ export class PlayView {
   }
 
   /** Show challenges as they come, and enter a match as soon as one begins: an opponent may accept long after. */
-  async lookOut(place, me) {
-    while (!this.closed && !this.match) {
+  async lookOut(place, me, choice) {
+    while (!choice.aborted) {
       const { matches } = await get(`/v1/matches?agent=${me.id}&status=challenged`).catch(() => ({ matches: [] }));
       const mine = matches.filter((match) => match.agents[match.challenger] !== me.id);
       fill(place, mine.length ? mine.map((match) => el("button", { type: "button", onclick: () => this.accept(match.id) },
         `Accept ${match.players[match.challenger]}`)) : el("p", { class: "empty" }, "None."));
       await pause(AGAIN);
-      await this.continueMatch(me).catch(() => null);
+      if (!choice.aborted) await this.continueMatch(me, choice).catch(() => null);
     }
   }
 
@@ -119,6 +124,7 @@ export class PlayView {
   async enter(id) {
     if (this.match) return;
     this.match = id;
+    this.choice.withdraw();
     fill(this.top, el("h1", {}, "Play"), el("p", { role: "status" }, "Waiting for the opponent …"));
     while (!this.closed) {
       const match = await get(`/v1/matches/${id}`).catch(() => null);
@@ -242,6 +248,7 @@ export class PlayView {
 
   close() {
     this.closed = true;
+    this.choice.withdraw();
     this.polls.abort();
     this.aiming?.end();
     this.game?.close();

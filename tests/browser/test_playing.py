@@ -70,6 +70,29 @@ def human(new_page, server) -> Hand:
     return sat_down(new_page(reduced_motion="reduce"), server)
 
 
+CHOOSE_AGAIN = """async ([path]) => {
+    const { PlayView } = await import(path);
+    const asked = [];
+    window.fetch = async (address) => {
+        asked.push(address);
+        return new Response('{"matches": [], "agents": []}');
+    };
+    const view = new PlayView();
+    for (let time = 0; time < 3; time++) view.chooseOpponent({ id: "me", name: "me" });
+    await new Promise((go) => setTimeout(go, 3000));
+    view.close();
+    return asked.filter((address) => address.includes("status=challenged")).length;
+}"""
+
+
+def test_only_the_choice_on_show_looks_out_for_challenges(new_page, server):
+    """Seen: the loop of one before went on, and entered another match while a result was shown."""
+    page = new_page()
+    page.goto(f"{server.url}/#/lab")
+    path = page.evaluate("document.querySelector('script[type=module]').src").rpartition("/")[0] + "/view_play.js"
+    assert page.evaluate(CHOOSE_AGAIN, [path]) == 3 + 1
+
+
 def sat_down(page, server) -> Hand:
     """Signed in under a new name."""
     page.goto(f"{server.url}/#/play")
