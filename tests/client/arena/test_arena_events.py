@@ -117,7 +117,15 @@ def killed_again_and_again(directory, kills, executor):
 
 
 def activity(directory):
-    return sum(path.stat().st_size for path in directory.games.iterdir() if path.suffix in (".part", ".jsonl"))
+    return sum(size(path) for path in directory.games.iterdir() if path.suffix in (".part", ".jsonl"))
+
+
+def size(path):
+    """A record is renamed when it is whole."""
+    try:
+        return path.stat().st_size
+    except FileNotFoundError:
+        return 0
 
 
 def check_kills(tmp_path, whole, kills, executor):
