@@ -79,7 +79,6 @@ class Settings:
     address_burst: float = setting(1000.0, "such requests at once")
     streams: int = setting(64, "streams of one token, or of one address without one, that may be open at once")
     polls: int = setting(64, "long polls of one token that may be open at once")
-    request_threads: int = setting(4, "threads for requests: more than a few only wait for each other's interpreter")
     physics_threads: int = setting(2, "threads for simulations that clients ask for")
     log_level: str = setting("info", "the least that is logged: `debug`, `info`, `warning`, `error`", one_of=LOG_LEVELS)
     drain_seconds: float = setting(5.0, "the server stops at the latest so long after SIGTERM")

@@ -8,7 +8,7 @@ from sqlalchemy import Connection, Engine, create_engine, event
 SCHEME = "sqlite:///"
 POOL_SIZE = 8
 POOL_OVERFLOW = 56
-"""Together more than there are threads, so that nobody waits for a connection."""
+"""Together more than the 40 threads that serve requests, so that nobody waits for a connection."""
 WRITING = {"pooliad_writes": True}
 """Options of a connection that takes the writer's place with its first statement."""
 
