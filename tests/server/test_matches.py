@@ -152,9 +152,8 @@ def test_matches_of_a_status_there_is_not_are_refused(server):
 
 def test_matches_are_searched_by_their_players_names(server, organiser, new_player):
     ann, bob, cat = (new_player() for _ in range(3))
-    names = {
-        one["id"]: one["name"] for one in server.request("GET", "/v1/agents", params={"limit": 200}).json()["agents"]
-    }
+    looked_up = [server.request("GET", "/v1/agents", params={"search": one.id}).json() for one in (ann, bob, cat)]
+    names = {one["id"]: one["name"] for page in looked_up for one in page["agents"]}
     first, second = (organiser.post("/v1/matches", {"agents": [one.id, cat.id]}).json()["id"] for one in (ann, bob))
 
     def found(search, **params):

@@ -82,14 +82,29 @@ def test_a_postgresql_that_stops_and_starts(mortal, own_server, table_at, break_
     record = table.organiser.get(f"/v1/games/{view['game']}/record").text.splitlines()
     assert verify_record(record).ok
     require_no_fault(server)
-    database = Database(server.database_url)
-    database.membership.enter()
-    assert not database.membership.is_alone, "the server has taken its place again"
-    database.membership.leave()
-    database.dispose()
+    assert eventually(lambda: is_served(server.database_url)), "the server has taken its place again"
     mortal.stop()
     assert server.stop() == 0, "without a database it stops in good order, too"
     require_no_fault(server)
+
+
+def is_served(url):
+    """Whether a process has its place among those that serve the database."""
+    database = Database(url)
+    database.membership.enter()
+    try:
+        return not database.membership.is_alone
+    finally:
+        database.membership.leave()
+        database.dispose()
+
+
+def eventually(holds, seconds=20.0):
+    """Whether it does within so long; with the next heartbeat, as a rule."""
+    deadline = time.monotonic() + seconds
+    while not (held := holds()) and time.monotonic() < deadline:
+        time.sleep(0.1)
+    return held
 
 
 def test_a_server_without_a_database_says_so_and_does_not_start(tmp_path):
