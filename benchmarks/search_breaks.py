@@ -19,7 +19,7 @@ from client.agents.search.sight import Sight
 from client.agents.search.value import Values
 from physics.constants import THETA_MAX, V_MAX
 from physics.shot import FIELDS
-from referee import Action, Decision, EightBall, Game, Phase, Ruling
+from referee import Action, Decision, EightBall, Game, Phase, RuleId, Ruling
 
 SEED = 20
 LEVELS = (0.0, 1.0, 5.0)
@@ -91,8 +91,8 @@ def row(one: Break, level: float, games: list[Game], copies: int, number: int) -
         "error": round(float(np.std(worths) / len(worths) ** 0.5), 4),
         "goes_on": round(float(np.mean([each.game.turn == 0 and not each.fouls for each in rulings])), 4),
         "fouls": round(float(np.mean(fouled)), 4),
-        "illegal": round(float(np.mean([each.game.choice in ("R12", "R12a") for each in rulings])), 4),
-        "eight_down": round(float(np.mean([each.game.choice in ("R13", "R14") for each in rulings])), 4),
+        "illegal": round(float(np.mean([each.game.choice in (RuleId.R12, RuleId.R12a) for each in rulings])), 4),
+        "eight_down": round(float(np.mean([each.game.choice in (RuleId.R13, RuleId.R14) for each in rulings])), 4),
     }
 
 

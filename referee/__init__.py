@@ -5,6 +5,7 @@ The record of a game and the messages on the wire are imported by name: ``refere
 
 from referee.errors import InvalidAction, InvalidGame, RefereeError
 from referee.game import (
+    RULES,
     SAFETY,
     Action,
     Call,
@@ -18,6 +19,7 @@ from referee.game import (
     Outcome,
     Phase,
     Refusal,
+    RuleId,
     Ruling,
 )
 from referee.play import (
@@ -32,7 +34,7 @@ from referee.play import (
     play_stroke,
     start_game,
 )
-from referee.rules import RULES, EightBall, Limits
+from referee.rules import EightBall, Limits
 
 __all__ = [
     "RULES",
@@ -60,6 +62,7 @@ __all__ = [
     "RefereeError",
     "Refusal",
     "Refused",
+    "RuleId",
     "Ruling",
     "SimulationBudget",
     "Stroke",

@@ -4,10 +4,12 @@ from referee.game.action import SAFETY, Action, Call, Decision
 from referee.game.game import CueBallArea, Game, Group, Phase
 from referee.game.legal import EIGHT, Legal, callable_balls, legal, members, remaining
 from referee.game.outcome import EndReason, Outcome
+from referee.game.rule_id import RULES, RuleId
 from referee.game.ruling import Evidence, Refusal, Ruling
 
 __all__ = [
     "EIGHT",
+    "RULES",
     "SAFETY",
     "Action",
     "Call",
@@ -21,6 +23,7 @@ __all__ = [
     "Outcome",
     "Phase",
     "Refusal",
+    "RuleId",
     "Ruling",
     "callable_balls",
     "legal",

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Final, NamedTuple
 
 from physics.facts import NEVER
-from referee.game import EIGHT, Decision, Evidence
+from referee.game import EIGHT, Decision, Evidence, RuleId
 from referee.rules.fouls import no_ball_struck, worst
 from referee.rules.stroke import Finding, Stroke
 
@@ -16,12 +16,12 @@ _AFTER_FOUL = (Decision.ACCEPT_TABLE, Decision.BALL_IN_HAND)
 _ABOUT_EIGHT = (Decision.SPOT_EIGHT, Decision.RERACK_AND_BREAK)
 
 OFFERED: Final[Mapping[str, tuple[Decision, ...]]] = {
-    "R12": (Decision.ACCEPT_TABLE, *_RERACKS),
-    "R12a": (*_AFTER_FOUL, *_RERACKS),
-    "R13": _ABOUT_EIGHT,
-    "R14": _ABOUT_EIGHT,
-    "R16": _AFTER_FOUL,
-    "R17": _AFTER_FOUL,
+    RuleId.R12: (Decision.ACCEPT_TABLE, *_RERACKS),
+    RuleId.R12a: (*_AFTER_FOUL, *_RERACKS),
+    RuleId.R13: _ABOUT_EIGHT,
+    RuleId.R14: _ABOUT_EIGHT,
+    RuleId.R16: _AFTER_FOUL,
+    RuleId.R17: _AFTER_FOUL,
 }
 """What each rule that grants a choice offers; R12a without `accept_table` when the cue ball is off the table."""
 
@@ -36,7 +36,7 @@ class Choice(NamedTuple):
 
 def must_strike_a_ball(stroke: Stroke) -> Finding:
     """R8: any ball may be struck first on the break, but one must be."""
-    return tuple(Evidence("R8", searched=one.searched) for one in no_ball_struck(stroke))
+    return tuple(Evidence(RuleId.R8, searched=one.searched) for one in no_ball_struck(stroke))
 
 
 def balls_driven(stroke: Stroke) -> tuple[int, ...]:
@@ -54,70 +54,70 @@ def break_evidence(stroke: Stroke) -> Evidence:
     """R9: the events that make the break legal, or those found and the range searched when it is not."""
     facts = stroke.facts
     if stroke.pocketed:
-        return Evidence("R9", tuple(facts.pocketed[ball] for ball in stroke.pocketed))
+        return Evidence(RuleId.R9, tuple(facts.pocketed[ball] for ball in stroke.pocketed))
     events = tuple(sorted(facts.cushion[ball] for ball in balls_driven(stroke)))
-    return Evidence("R9", events, None if legal_break(stroke) else stroke.searched())
+    return Evidence(RuleId.R9, events, None if legal_break(stroke) else stroke.searched())
 
 
 def illegal_break(stroke: Stroke, found: Finding) -> Choice | None:
     """R12: illegal without a foul, the opponent takes the table as it lies or asks for a new rack."""
     if legal_break(stroke) or found:
         return None
-    return Choice("R12", stroke.opponent, OFFERED["R12"])
+    return Choice(RuleId.R12, stroke.opponent, OFFERED[RuleId.R12])
 
 
 def illegal_break_with_foul(stroke: Stroke, found: Finding) -> Choice | None:
     """R12a: the new racks of R12, or what the foul gives: no position to accept after a scratch."""
     if legal_break(stroke) or not found:
         return None
-    offered = OFFERED["R12a"]
-    return Choice("R12a", stroke.opponent, offered[1:] if worst(found) == "R32" else offered)
+    offered = OFFERED[RuleId.R12a]
+    return Choice(RuleId.R12a, stroke.opponent, offered[1:] if worst(found) == RuleId.R32 else offered)
 
 
 def eight_on_break(stroke: Stroke, found: Finding) -> Choice | None:
     """R13: the 8 pocketed without a foul, the breaker has it spotted or breaks again."""
     if not stroke.eight_pocketed or found:
         return None
-    return Choice("R13", stroke.shooter, OFFERED["R13"])
+    return Choice(RuleId.R13, stroke.shooter, OFFERED[RuleId.R13])
 
 
 def eight_and_scratch_on_break(stroke: Stroke, found: Finding) -> Choice | None:
     """R14: the 8 pocketed with a scratch, the opponent has it spotted or breaks himself."""
-    if not stroke.eight_pocketed or worst(found) != "R32":
+    if not stroke.eight_pocketed or worst(found) != RuleId.R32:
         return None
-    return Choice("R14", stroke.opponent, OFFERED["R14"])
+    return Choice(RuleId.R14, stroke.opponent, OFFERED[RuleId.R14])
 
 
 def scratch_on_break(stroke: Stroke, found: Finding) -> bool:
     """R15: a scratch on a legal break gives the opponent ball in hand behind the head string."""
-    return legal_break(stroke) and worst(found) == "R32"
+    return legal_break(stroke) and worst(found) == RuleId.R32
 
 
 def ball_off_on_break(stroke: Stroke, found: Finding) -> Choice | None:
     """R16: after a legal break with an object ball off the table, accept the position or ball in hand."""
-    if not legal_break(stroke) or worst(found) != "R36":
+    if not legal_break(stroke) or worst(found) != RuleId.R36:
         return None
-    return Choice("R16", stroke.opponent, OFFERED["R16"])
+    return Choice(RuleId.R16, stroke.opponent, OFFERED[RuleId.R16])
 
 
 def other_foul_on_break(stroke: Stroke, found: Finding) -> Choice | None:
     """R17: the same choice after a legal break with any other foul."""
-    if not legal_break(stroke) or not found or worst(found) in ("R32", "R36"):
+    if not legal_break(stroke) or not found or worst(found) in (RuleId.R32, RuleId.R36):
         return None
-    return Choice("R17", stroke.opponent, OFFERED["R17"])
+    return Choice(RuleId.R17, stroke.opponent, OFFERED[RuleId.R17])
 
 
 def breaker_continues(stroke: Stroke) -> Finding:
     """R10: after a legal break without a foul the breaker goes on if a ball fell."""
     facts = stroke.facts
     return tuple(
-        Evidence("R10", (facts.pocketed[ball],), ball=ball, pocket=facts.pocket[ball]) for ball in stroke.pocketed
+        Evidence(RuleId.R10, (facts.pocketed[ball],), ball=ball, pocket=facts.pocket[ball]) for ball in stroke.pocketed
     )
 
 
 def breaker_passes(stroke: Stroke) -> Finding:
     """R11: after a legal break without a foul the turn passes if no ball fell."""
-    return () if stroke.pocketed else (Evidence("R11", searched=stroke.searched()),)
+    return () if stroke.pocketed else (Evidence(RuleId.R11, searched=stroke.searched()),)
 
 
 def eight_evidence(stroke: Stroke, rule: str) -> Finding:

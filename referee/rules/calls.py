@@ -1,7 +1,7 @@
 """R18 to R29: what a stroke with a call is worth, fouls and the 8 aside."""
 
 from physics.facts import NEVER
-from referee.game import Call, Evidence, Group, Phase
+from referee.game import Call, Evidence, Group, Phase, RuleId
 from referee.rules.stroke import Finding, Stroke, group_of_ball
 
 
@@ -12,7 +12,7 @@ def called_ball_made(stroke: Stroke) -> Finding:
         return ()
     if facts.pocket[call.ball] != call.pocket:
         return ()
-    return (Evidence("R24", (facts.pocketed[call.ball],), ball=call.ball, pocket=call.pocket),)
+    return (Evidence(RuleId.R24, (facts.pocketed[call.ball],), ball=call.ball, pocket=call.pocket),)
 
 
 def called_ball_elsewhere(stroke: Stroke) -> Finding:
@@ -20,12 +20,12 @@ def called_ball_elsewhere(stroke: Stroke) -> Finding:
     call, facts = stroke.action.call, stroke.facts
     if not isinstance(call, Call) or facts.pocketed[call.ball] == NEVER or called_ball_made(stroke):
         return ()
-    return (Evidence("R25", (facts.pocketed[call.ball],), ball=call.ball, pocket=facts.pocket[call.ball]),)
+    return (Evidence(RuleId.R25, (facts.pocketed[call.ball],), ball=call.ball, pocket=facts.pocket[call.ball]),)
 
 
 def shooter_continues(stroke: Stroke, found: Finding) -> Finding:
     """R28: the called ball legally in the called pocket, and nothing else, lets the shooter go on."""
-    return () if found else _cite("R28", called_ball_made(stroke))
+    return () if found else _cite(RuleId.R28, called_ball_made(stroke))
 
 
 def called_ball_missed(stroke: Stroke) -> Finding:
@@ -33,24 +33,24 @@ def called_ball_missed(stroke: Stroke) -> Finding:
     call = stroke.action.call
     if not isinstance(call, Call) or stroke.facts.pocketed[call.ball] != NEVER:
         return ()
-    return (Evidence("R28", searched=stroke.searched(), ball=call.ball, pocket=call.pocket),)
+    return (Evidence(RuleId.R28, searched=stroke.searched(), ball=call.ball, pocket=call.pocket),)
 
 
 def safety_passes_turn(stroke: Stroke) -> Finding:
     """R26: after a safety the turn passes, whatever was pocketed."""
     if not stroke.action.is_safety:
         return ()
-    return (Evidence("R26", tuple(stroke.facts.pocketed[ball] for ball in stroke.pocketed)),)
+    return (Evidence(RuleId.R26, tuple(stroke.facts.pocketed[ball] for ball in stroke.pocketed)),)
 
 
 def other_balls_on_open_table(stroke: Stroke) -> Finding:
     """R21: further balls pocketed on an open table do not decide the groups."""
-    return _other_balls(stroke, "R21") if stroke.game.groups is None else ()
+    return _other_balls(stroke, RuleId.R21) if stroke.game.groups is None else ()
 
 
 def other_balls_stay_down(stroke: Stroke) -> Finding:
     """R29: further balls pocketed stay down, the opponent's included."""
-    return _other_balls(stroke, "R29") if stroke.game.groups is not None else ()
+    return _other_balls(stroke, RuleId.R29) if stroke.game.groups is not None else ()
 
 
 def table_stays_open(stroke: Stroke, found: Finding) -> bool:
@@ -67,7 +67,7 @@ def fixes_groups(stroke: Stroke, found: Finding) -> Finding:
     """R19: on an open table, legally pocketing the called ball gives the shooter that ball's group."""
     if stroke.game.groups is not None:
         return ()
-    return _cite("R19", shooter_continues(stroke, found))
+    return _cite(RuleId.R19, shooter_continues(stroke, found))
 
 
 def groups_after(stroke: Stroke, found: Finding) -> tuple[Group, Group] | None:

@@ -3,17 +3,7 @@
 from physics.cue import check as check_cue
 from physics.state import TableState
 from physics.table import Table
-from referee.game import (
-    EIGHT,
-    SAFETY,
-    Action,
-    Call,
-    Decision,
-    Game,
-    Phase,
-    Refusal,
-    callable_balls,
-)
+from referee.game import EIGHT, SAFETY, Action, Call, Decision, Game, Phase, Refusal, RuleId, callable_balls
 from referee.rules.placement import refuse_placement
 from referee.rules.stroke import CUE_BALL
 
@@ -37,11 +27,11 @@ def refuse_phase(game: Game, action: Action) -> tuple[Refusal, ...]:
         return ()
     value = action.to_dict()
     if game.phase is Phase.RERACK:
-        return (Refusal("R49", "action", value, "nothing before the balls are racked again"),)
+        return (Refusal(RuleId.R49, "action", value, "nothing before the balls are racked again"),)
     if game.phase is Phase.DECISION:
         return _refuse_choice(game, action)
     if action.decision is not None:
-        return (Refusal("R12", "decision", action.decision.value, "a stroke: no choice is open"),)
+        return (Refusal(RuleId.R12, "decision", action.decision.value, "a stroke: no choice is open"),)
     return ()
 
 
@@ -49,18 +39,18 @@ def refuse_call(game: Game, action: Action) -> tuple[Refusal, ...]:
     """R8: no call on the break. R23: every other stroke calls a ball that may be called, or a safety."""
     call = action.call
     if game.phase is Phase.BREAK:
-        return () if call is None else (Refusal("R8", "call", _shown(call), "null: the break is not called"),)
+        return () if call is None else (Refusal(RuleId.R8, "call", _shown(call), "null: the break is not called"),)
     if call == SAFETY:
         return ()
     if not isinstance(call, Call):
-        return (Refusal("R23", "call", None, 'a ball and a pocket, or "safety"'),)
+        return (Refusal(RuleId.R23, "call", None, 'a ball and a pocket, or "safety"'),)
     refusals = []
     allowed = callable_balls(game)
     if call.ball not in allowed:
-        rule = "R27" if call.ball == EIGHT else "R23"
+        rule = RuleId.R27 if call.ball == EIGHT else RuleId.R23
         refusals.append(Refusal(rule, "call.ball", call.ball, f"one of {list(allowed)}, or a safety"))
     if not 0 <= call.pocket < 6:
-        refusals.append(Refusal("R23", "call.pocket", call.pocket, "a pocket 0..5 (SW W NW NE E SE)"))
+        refusals.append(Refusal(RuleId.R23, "call.pocket", call.pocket, "a pocket 0..5 (SW W NW NE E SE)"))
     return tuple(refusals)
 
 
@@ -70,7 +60,7 @@ def refuse_stroke(table: Table, game: Game, action: Action) -> tuple[Refusal, ..
     unplayable = check_cue(table, start_state(game, action), action.shot)
     if unplayable is None:
         return ()
-    return (Refusal("R39", "shot", action.shot.to_dict(), f"a playable stroke: {unplayable.reason}"),)
+    return (Refusal(RuleId.R39, "shot", action.shot.to_dict(), f"a playable stroke: {unplayable.reason}"),)
 
 
 def start_state(game: Game, action: Action) -> TableState:
@@ -81,7 +71,7 @@ def start_state(game: Game, action: Action) -> TableState:
 def _refuse_choice(game: Game, action: Action) -> tuple[Refusal, ...]:
     if action.decision in game.decisions:
         return ()
-    rule = game.choice or "R12"
+    rule = game.choice or RuleId.R12
     allowed = f"one of the decisions {[decision.value for decision in game.decisions]}"
     if action.decision is None:
         return (Refusal(rule, "action", action.to_dict(), allowed),)

@@ -19,6 +19,7 @@ from referee.game import (
     Outcome,
     Phase,
     Refusal,
+    RuleId,
     Ruling,
     legal,
 )
@@ -143,15 +144,15 @@ class EightBall:
             raise InvalidGame("reason", reason, f"one of {[str(one) for one in (*FROM_OUTSIDE, EndReason.ABORTED)]}")
         if loser not in ((None,) if reason is EndReason.ABORTED else (0, 1)):
             raise InvalidGame("loser", loser, "seat 0 or 1, and None when the game is aborted")
-        after = over(game, Outcome(None if loser is None else 1 - loser, reason, "R48"))
-        return Ruling(("R48",), (), f"{describe_next(after).capitalize()}.", (), after)
+        after = over(game, Outcome(None if loser is None else 1 - loser, reason, RuleId.R48))
+        return Ruling((RuleId.R48,), (), f"{describe_next(after).capitalize()}.", (), after)
 
     def _decide(self, game: Game, decision: Decision) -> Ruling:
         if decision is Decision.CONCEDE:
             return self.end(game, EndReason.CONCESSION, game.turn)
         after = decide(self.table, game, decision)
         words = describe_decision(game, decision, after)
-        rules = (game.choice or "R12", *(("R30", "R31") if decision is Decision.SPOT_EIGHT else ()))
+        rules = (game.choice or RuleId.R12, *((RuleId.R30, RuleId.R31) if decision is Decision.SPOT_EIGHT else ()))
         return Ruling(rules, (), words, (), after, rerack=after.phase is Phase.RERACK)
 
     def _rule(self, game: Game, action: Action, facts: Facts, final: TableState) -> Ruling:
@@ -161,7 +162,7 @@ class EightBall:
         after = self._limited(judgement)
         rules = rules_cited(judgement.rules, judgement.evidence)
         return Ruling(
-            rules=rules if after is judgement.game else ("R49", *rules),
+            rules=rules if after is judgement.game else (RuleId.R49, *rules),
             fouls=tuple(dict.fromkeys(one.rule for one in found)),
             words=describe_stroke(stroke, found, after),
             evidence=judgement.evidence,

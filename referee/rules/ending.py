@@ -1,36 +1,36 @@
 """R42 to R48: how a game ends."""
 
-from referee.game import EIGHT, Call, EndReason, Evidence, Outcome
+from referee.game import EIGHT, Call, EndReason, Evidence, Outcome, RuleId
 from referee.rules.calls import called_ball_made
 from referee.rules.stroke import Finding, Stroke
 
 
 def eight_with_foul(stroke: Stroke, found: Finding) -> Finding:
     """R42: the 8 pocketed on a stroke with a foul loses."""
-    return _eight(stroke, "R42") if found and stroke.eight_pocketed else ()
+    return _eight(stroke, RuleId.R42) if found and stroke.eight_pocketed else ()
 
 
 def eight_too_early(stroke: Stroke) -> Finding:
     """R43: the 8 pocketed before the group was cleared loses; so does the clearing stroke."""
-    return _eight(stroke, "R43") if stroke.eight_pocketed and not stroke.on_eight else ()
+    return _eight(stroke, RuleId.R43) if stroke.eight_pocketed and not stroke.on_eight else ()
 
 
 def eight_not_as_called(stroke: Stroke) -> Finding:
     """R44: the 8 in a pocket that was not called, or on a safety, loses."""
     uncalled = stroke.on_eight and not _made_as_called(stroke)
-    return _eight(stroke, "R44") if stroke.eight_pocketed and (stroke.action.is_safety or uncalled) else ()
+    return _eight(stroke, RuleId.R44) if stroke.eight_pocketed and (stroke.action.is_safety or uncalled) else ()
 
 
 def eight_off_table(stroke: Stroke) -> Finding:
     """R45: the 8 off the table loses."""
     if not stroke.eight_off_table:
         return ()
-    return (Evidence("R45", (stroke.facts.off_table[EIGHT],), ball=EIGHT),)
+    return (Evidence(RuleId.R45, (stroke.facts.off_table[EIGHT],), ball=EIGHT),)
 
 
 def eight_made(stroke: Stroke, found: Finding) -> Finding:
     """R46: the 8 legally in the called pocket, the group cleared before the stroke, wins."""
-    return _eight(stroke, "R46") if stroke.on_eight and _made_as_called(stroke) and not found else ()
+    return _eight(stroke, RuleId.R46) if stroke.on_eight and _made_as_called(stroke) and not found else ()
 
 
 def foul_on_eight(stroke: Stroke, found: Finding) -> bool:
@@ -46,7 +46,7 @@ def end_by_eight(stroke: Stroke, found: Finding) -> tuple[Outcome, Finding] | No
     if not (stroke.eight_pocketed or stroke.eight_off_table):
         return None
     if proof := eight_made(stroke, found):
-        return Outcome(stroke.shooter, EndReason.EIGHT_MADE, "R46"), proof
+        return Outcome(stroke.shooter, EndReason.EIGHT_MADE, RuleId.R46), proof
     losses = (
         (EndReason.EIGHT_WITH_FOUL, eight_with_foul(stroke, found)),
         (EndReason.EIGHT_TOO_EARLY, eight_too_early(stroke)),

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from physics.facts import NEVER
 from physics.status import Status
-from referee.game import EIGHT, CueBallArea, Evidence, Phase
+from referee.game import EIGHT, CueBallArea, Evidence, Phase, RuleId
 from referee.rules.stroke import CUE_BALL, Finding, Stroke
 
 MISCUES = (Status.CUE_OBSTRUCTED, Status.TIP_OFF_BALL)
@@ -15,9 +15,9 @@ def scratch(stroke: Stroke) -> Finding:
     """R32: the cue ball is pocketed or leaves the table."""
     facts = stroke.facts
     if (event := facts.pocketed[CUE_BALL]) != NEVER:
-        return (Evidence("R32", (event,), ball=CUE_BALL, pocket=facts.pocket[CUE_BALL]),)
+        return (Evidence(RuleId.R32, (event,), ball=CUE_BALL, pocket=facts.pocket[CUE_BALL]),)
     if (event := facts.off_table[CUE_BALL]) != NEVER:
-        return (Evidence("R32", (event,), ball=CUE_BALL),)
+        return (Evidence(RuleId.R32, (event,), ball=CUE_BALL),)
     return ()
 
 
@@ -29,19 +29,19 @@ def wrong_ball_first(stroke: Stroke) -> Finding:
     struck = stroke.struck
     if not struck or any(ball in stroke.targets for ball in struck):
         return ()
-    return tuple(_first_contact(stroke, "R33", ball) for ball in struck)
+    return tuple(_first_contact(stroke, RuleId.R33, ball) for ball in struck)
 
 
 def eight_first_on_open_table(stroke: Stroke) -> Finding:
     """R20: on an open table every ball but the 8 may be struck first."""
     if stroke.game.groups is not None or stroke.struck != (EIGHT,):
         return ()
-    return (_first_contact(stroke, "R20", EIGHT),)
+    return (_first_contact(stroke, RuleId.R20, EIGHT),)
 
 
 def no_ball_struck(stroke: Stroke) -> Finding:
     """R34: the cue ball strikes nothing."""
-    return () if stroke.struck else (Evidence("R34", searched=stroke.searched()),)
+    return () if stroke.struck else (Evidence(RuleId.R34, searched=stroke.searched()),)
 
 
 def no_cushion_after_contact(stroke: Stroke) -> Finding:
@@ -52,13 +52,13 @@ def no_cushion_after_contact(stroke: Stroke) -> Finding:
     if any(event != NEVER for event in facts.cushion_after_contact):
         return ()
     contact = min(facts.first_contact[ball] for ball in stroke.struck)
-    return (Evidence("R35", searched=stroke.searched(contact)),)
+    return (Evidence(RuleId.R35, searched=stroke.searched(contact)),)
 
 
 def ball_off_table(stroke: Stroke) -> Finding:
     """R36 (R16 on the break): an object ball leaves the table."""
     off = stroke.facts.off_table
-    return tuple(Evidence("R36", (off[ball],), ball=ball) for ball in range(1, 16) if off[ball] != NEVER)
+    return tuple(Evidence(RuleId.R36, (off[ball],), ball=ball) for ball in range(1, 16) if off[ball] != NEVER)
 
 
 def bad_play_from_kitchen(stroke: Stroke) -> Finding:
@@ -72,17 +72,17 @@ def bad_play_from_kitchen(stroke: Stroke) -> Finding:
         return ()
     if not stroke.struck:
         never_crossed = facts.crossed_head_string == NEVER
-        return (Evidence("R38", searched=stroke.searched()),) if never_crossed else ()
+        return (Evidence(RuleId.R38, searched=stroke.searched()),) if never_crossed else ()
     if facts.crossed_before_contact != NEVER or any(_lies_beyond(stroke, ball) for ball in stroke.struck):
         return ()
-    return tuple(_first_contact(stroke, "R38", ball) for ball in stroke.struck)
+    return tuple(_first_contact(stroke, RuleId.R38, ball) for ball in stroke.struck)
 
 
 def miscue(stroke: Stroke) -> Finding:
     """R39: noise made the stroke impossible (tip off the ball, cue blocked); nothing moved."""
     if stroke.facts.status not in MISCUES:
         return ()
-    return (Evidence("R39", status=Status(stroke.facts.status).name),)
+    return (Evidence(RuleId.R39, status=Status(stroke.facts.status).name),)
 
 
 BY_SEVERITY: tuple[Callable[[Stroke], Finding], ...] = (
@@ -114,7 +114,7 @@ def worst(found: Finding) -> str | None:
     return found[0].rule if found else None
 
 
-def _first_contact(stroke: Stroke, rule: str, ball: int) -> Evidence:
+def _first_contact(stroke: Stroke, rule: RuleId, ball: int) -> Evidence:
     return Evidence(rule, (stroke.facts.first_contact[ball],), ball=ball)
 
 

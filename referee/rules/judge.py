@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from physics.state import TableState
-from referee.game import CueBallArea, Evidence, Game, Group, Outcome, Phase
+from referee.game import CueBallArea, Evidence, Game, Group, Outcome, Phase, RuleId
 from referee.rules import breaks, calls
 from referee.rules.ending import end_by_eight, foul_on_eight
 from referee.rules.fouls import eight_first_on_open_table
@@ -37,10 +37,10 @@ def judge_break(stroke: Stroke, found: Finding) -> Judgement:
         return Judgement((choice.rule, *spotting), evidence, _ask(stroke, choice, state))
     if breaks.scratch_on_break(stroke, found):
         game = _go_on(stroke, stroke.opponent, state, area=CueBallArea.KITCHEN)
-        return Judgement(("R15", *spotting), evidence, game)
+        return Judgement((RuleId.R15, *spotting), evidence, game)
     continues = breaks.breaker_continues(stroke)
     turn = stroke.shooter if continues else stroke.opponent
-    rules = ("R10" if continues else "R11", "R18")
+    rules = (RuleId.R10 if continues else RuleId.R11, RuleId.R18)
     evidence += continues or breaks.breaker_passes(stroke)
     return Judgement(rules, evidence, _go_on(stroke, turn, state))
 
@@ -79,8 +79,8 @@ def judge_play(stroke: Stroke, found: Finding) -> Judgement:
 
 def _foul(stroke: Stroke, found: Finding) -> Judgement:
     """A foul that does not end the game: ball in hand anywhere, an open table stays open (R22)."""
-    rules = ("R41", *(("R22",) if calls.table_stays_open(stroke, found) else ()))
-    rules += ("R47",) if foul_on_eight(stroke, found) else ()
+    rules = (RuleId.R41, *((RuleId.R22,) if calls.table_stays_open(stroke, found) else ()))
+    rules += (RuleId.R47,) if foul_on_eight(stroke, found) else ()
     evidence = (*found, *eight_first_on_open_table(stroke), *_other_balls(stroke))
     game = _go_on(stroke, stroke.opponent, stroke.final, groups=stroke.game.groups, area=CueBallArea.ANYWHERE)
     return Judgement((found[0].rule, *rules), evidence, game)
@@ -96,7 +96,7 @@ def _spotted(stroke: Stroke) -> tuple[TableState, tuple[str, ...]]:
     balls = spotted_balls(stroke)
     for ball in balls:
         state = spot(stroke.table, state, ball)
-    return state, (*(("R14",) if stroke.eight_pocketed else ()), "R30", "R31") if balls else ()
+    return state, (*((RuleId.R14,) if stroke.eight_pocketed else ()), RuleId.R30, RuleId.R31) if balls else ()
 
 
 def _go_on(

@@ -4,7 +4,7 @@ from math import dist, isfinite
 
 from physics.constants import PLACEMENT_TOLERANCE
 from physics.table import Table
-from referee.game import CueBallArea, Game, Refusal
+from referee.game import CueBallArea, Game, Refusal, RuleId
 from referee.rules.stroke import CUE_BALL
 
 Point = tuple[float, float]
@@ -41,12 +41,12 @@ def refuse_placement(table: Table, game: Game, place: Point | None) -> list[Refu
         return [_refusal(place, "two finite numbers (x, y), metres")]
     refusals = []
     if not table.contains(*place):
-        refusals.append(_refusal(place, "inside the cushion lines and outside the pocket mouths", "R40"))
+        refusals.append(_refusal(place, "inside the cushion lines and outside the pocket mouths", RuleId.R40))
     if not in_area(table, area, place[1]):
         refusals.append(_refusal(place, f"behind the head string: y greater than {table.head_string}"))
     for ball in overlapped_balls(table, game, place):
         where = game.state.position(ball)
-        refusals.append(_refusal(place, f"clear of ball {ball} at {where}: touching counts as overlap", "R40"))
+        refusals.append(_refusal(place, f"clear of ball {ball} at {where}: touching counts as overlap", RuleId.R40))
     return refusals
 
 
@@ -60,5 +60,5 @@ def _refuse_lie(table: Table, game: Game, area: CueBallArea) -> list[Refusal]:
     return []
 
 
-def _refusal(value: Point | None, allowed: str, rule: str = "R37") -> Refusal:
+def _refusal(value: Point | None, allowed: str, rule: RuleId = RuleId.R37) -> Refusal:
     return Refusal(rule, "cue_ball", value, allowed)

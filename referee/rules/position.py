@@ -6,7 +6,7 @@ from physics.constants import N_BALLS
 from physics.errors import InvalidState
 from physics.table import Table
 from referee.errors import InvalidGame
-from referee.game import EIGHT, CueBallArea, Decision, Game, Phase
+from referee.game import EIGHT, CueBallArea, Decision, Game, Phase, RuleId
 from referee.rules.breaks import OFFERED
 from referee.rules.stroke import CUE_BALL
 
@@ -70,12 +70,12 @@ def _require_balls(game: Game, decisions: tuple[Decision, ...]) -> None:
         raise InvalidGame("balls", list(balls), "all sixteen before the break")
     if CUE_BALL not in balls and not _may_lack_cue_ball(game):
         raise InvalidGame("balls", list(balls), "the cue ball on the table, or in hand")
-    if game.choice == "R14" and CUE_BALL in balls:
+    if game.choice == RuleId.R14 and CUE_BALL in balls:
         raise InvalidGame("balls", list(balls), "the cue ball off the table: R14 is about a scratch")
 
 
 def _may_lack_cue_ball(game: Game) -> bool:
-    after_scratch = game.phase is Phase.DECISION and game.choice in ("R12a", "R14")
+    after_scratch = game.phase is Phase.DECISION and game.choice in (RuleId.R12a, RuleId.R14)
     return after_scratch or (game.phase is Phase.PLAY and game.cue_ball_in_hand is not None)
 
 

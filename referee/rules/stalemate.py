@@ -3,7 +3,7 @@
 from dataclasses import dataclass, fields, replace
 
 from referee.errors import InvalidGame
-from referee.game import EndReason, Game, Outcome, Phase
+from referee.game import EndReason, Game, Outcome, Phase, RuleId
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ def stroke_limit(game: Game, limits: Limits) -> Game | None:
     """R49: the game drawn because its strokes are used up, or None."""
     if game.is_over or game.stroke < limits.strokes:
         return None
-    return over(game, Outcome(None, EndReason.STROKE_LIMIT, "R49"))
+    return over(game, Outcome(None, EndReason.STROKE_LIMIT, RuleId.R49))
 
 
 def stalemate(game: Game, limits: Limits) -> Game | None:
@@ -49,7 +49,7 @@ def stalemate(game: Game, limits: Limits) -> Game | None:
     if game.is_over or game.dry_visits < limits.dry_visits:
         return None
     if game.replays >= limits.replays:
-        return over(game, Outcome(None, EndReason.STALEMATE, "R49"))
+        return over(game, Outcome(None, EndReason.STALEMATE, RuleId.R49))
     return replace(await_rack(game, game.breaker), dry_visits=0, replays=game.replays + 1)
 
 

@@ -2,7 +2,7 @@
 
 from physics.constants import POCKET_NAMES
 from physics.status import Status
-from referee.game import EIGHT, Call, CueBallArea, Decision, EndReason, Game, Phase
+from referee.game import EIGHT, Call, CueBallArea, Decision, EndReason, Game, Phase, RuleId
 from referee.rules.calls import called_ball_made
 from referee.rules.stroke import CUE_BALL, Finding, Stroke, group_of_ball
 
@@ -104,19 +104,19 @@ def _others(stroke: Stroke) -> list[str]:
 def _foul(stroke: Stroke, rule: str) -> str:
     facts = stroke.facts
     match rule:
-        case "R32" if facts.pocket[CUE_BALL] >= 0:
+        case RuleId.R32 if facts.pocket[CUE_BALL] >= 0:
             return f"the cue ball went into {pocket_name(facts.pocket[CUE_BALL])}"
-        case "R32":
+        case RuleId.R32:
             return "the cue ball left the table"
-        case "R33":
+        case RuleId.R33:
             return " and ".join(map(ball_name, stroke.struck)) + " struck first"
-        case "R34":
+        case RuleId.R34:
             return "no ball struck"
-        case "R35":
+        case RuleId.R35:
             return "no ball driven to a cushion after contact"
-        case "R36":
+        case RuleId.R36:
             return "an object ball left the table"
-        case "R38":
+        case RuleId.R38:
             return "the cue ball was not played out of the kitchen"
         case _:
             return f"miscue, {Status(facts.status).explain()}"

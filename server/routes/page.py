@@ -10,7 +10,7 @@ from typing import Final
 
 from fastapi import APIRouter, Request, Response
 
-from referee.rules.catalogue import RULES
+from referee.game import RULES
 from server.errors import NotFound
 
 router = APIRouter(include_in_schema=False)

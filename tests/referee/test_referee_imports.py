@@ -31,6 +31,7 @@ PUBLIC = {
     "RefereeError",
     "Refusal",
     "Refused",
+    "RuleId",
     "Ruling",
     "SimulationBudget",
     "Stroke",

@@ -11,7 +11,7 @@ from importlib.resources import files
 from typing import Any
 from urllib.parse import quote
 
-from referee.rules import RULES
+from referee.game import RULES
 from tournament.report.data import Data
 from tournament.report.svg import Line, Whisker, dots, lines
 

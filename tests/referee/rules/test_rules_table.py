@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from support.require import ROOT
 
-from referee.rules import RULES
+from referee.game import RULES
 
 TESTS = ROOT / "tests" / "referee"
 HOW = {"simulated", "by hand", "rack", "refusal", "outside"}
@@ -99,5 +99,5 @@ def test_everything_not_simulated_is_explained() -> None:
 
 
 def test_the_page_says_a_rule_in_the_words_of_the_document() -> None:
-    """The page explains rule ids by the catalogue: one wording, wherever an id is explained."""
+    """The page explains rule ids by ``referee.RuleId``: one wording, wherever an id is explained."""
     assert {row[0]: row[1] for row in RULE_ROWS} == dict(RULES)
