@@ -109,6 +109,11 @@ class LiveGame:
         return self.row.lag_0, self.row.lag_1
 
     @property
+    def graces(self) -> tuple[int, int]:
+        """What was given back so far in this game for turns fetched late, ns by seat."""
+        return self.row.grace_0, self.row.grace_1
+
+    @property
     def is_present(self) -> tuple[bool, bool]:
         """Whether each player ever fetched a turn of this game or played one."""
         return self.row.present_0, self.row.present_1
@@ -123,27 +128,33 @@ class LiveGame:
         """Nanoseconds that the running turn's clock has run since it started, or since the server did."""
         return max(0, now - self.row.clock_from) if self.is_running else 0
 
+    def grace_until(self, now: int) -> int:
+        """What was given back of the running turn until then, for the wait until it was fetched."""
+        waited = max(0, min(now, self.row.clock_from) - self.row.available_at)
+        return self.row.carried_grace + waited if self.is_running else 0
+
     def charge_until(self, now: int) -> Charge:
         """What the running turn costs if it ends now."""
         carried = self.row.carried if self.is_running else 0
-        return self._charge(carried + self.running_for(now))
+        return self._charge(carried + self.running_for(now), self.grace_until(now))
 
     def charge_of_action(self, arrived: int) -> Charge:
         """What the running turn costs if the action that ends it was complete at `arrived`.
 
-        A turn that was never fetched counts from the moment it was there to be fetched: whoever acts knows the view
-        from elsewhere, and the wait for the fetch is not free time to think.
+        Nothing is given back of a turn that was never fetched: whoever acts knows the view from elsewhere, and did not
+        wait for the fetch.
         """
-        start = self.row.clock_from if self.row.delivered else self.row.available_at
-        return self._charge(self.row.carried + max(0, arrived - start))
+        if self.row.delivered:
+            return self.charge_until(arrived)
+        return self._charge(self.row.carried + max(0, arrived - self.row.available_at), self.row.carried_grace)
 
     def is_out_of_time(self, arrived: int) -> bool:
         """Whether an action complete at `arrived` is too late; exactly zero left is."""
         turn = self.game.turn
         return self.clocks.charged(turn, self.charge_of_action(arrived).charged_ns).is_out_of_time(turn)
 
-    def _charge(self, measured: int) -> Charge:
-        return self.fixture.lag.charge(measured, self.granted[self.game.turn])
+    def _charge(self, ran: int, grace: int) -> Charge:
+        return self.fixture.lag.charge(ran + grace, self.granted[self.game.turn], grace)
 
     def clock_views(self, now: int) -> tuple[ClockView, ClockView]:
         """Both clocks as they stand now."""

@@ -45,6 +45,7 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
         played=tuple(GameSummary(**summary(row)) for row in played),
         start=None if match.start is None else Position.model_validate(match.start),
         rated=match.rated,
+        foreseeable=match.foreseeable,
         created_at=date_time(match.created_at),
     )
 
