@@ -137,7 +137,8 @@ class GameSummary(Message):
     Attributes:
         breaker: the seat that broke, or will.
         commitment: of the match (docs/protocol.md, Commitment).
-        noise_seed: from which the game's noise came, once the game is over.
+        noise_seed: from which the game's noise came, once the game is over; where noise is not told, once the match is
+            over and the tournament that it belongs to.
     """
 
     id: Identifier

@@ -17,6 +17,7 @@ from server.security import keys
 from server.services import draws, notices, turn_clock
 from server.services.context import Writing
 from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of
+from server.services.secrecy import withheld
 from server.store.database import Overtaken
 from server.store.tables import charges, games, matches
 
@@ -141,7 +142,10 @@ def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
         "head": chain.head,
     }
     live = _store(writing, live, game, end, values)
-    live = replace(live, fixture=replace(live.fixture, score=score_of(writing.connection, live.match.id)))
+    over = aborted or live.row.number + 1 >= live.match.games
+    until = withheld(writing.connection, live.match, over=over)
+    score = score_of(writing.connection, live.match.id)
+    live = replace(live, fixture=replace(live.fixture, score=score, withheld=until))
     notices.game_over(writing.connection, live, writing.now)
     writing.context.metrics.games_ended.labels(outcome.reason.value).inc()
     log.info("game over", extra={"fields": {"game": live.id} | outcome.to_dict()})

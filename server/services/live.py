@@ -15,6 +15,7 @@ from referee.wire import BudgetView, ClockView, GameTerms, NoiseView, StrokeView
 from server.errors import Forbidden, NotFound
 from server.security.callers import Caller
 from server.services import draws
+from server.services.secrecy import Holder, withheld
 from server.store import locks
 from server.store.rows import GameRow
 from server.store.tables import agents, games, matches, moves
@@ -32,11 +33,13 @@ class Fixture:
         match: of `matches`.
         players: the agents' names, by seat.
         score: of the match, by seat.
+        withheld: until whose end its noise is kept back.
     """
 
     match: Row[Any]
     players: tuple[str, str]
     score: tuple[float, float]
+    withheld: Holder | None
 
     @cached_property
     def rules(self) -> EightBall:
@@ -183,7 +186,7 @@ class LiveGame:
             players=self.fixture.players,
             rules=self.match.rules,
             table=self.match.table,
-            noise=noise_view(self.match),
+            noise=noise_view(self.match, self.fixture.withheld),
             budget=budget_view(self.match),
             dry_visits_limit=limits.dry_visits,
             replays_limit=limits.replays,
@@ -236,7 +239,8 @@ def read(connection: Connection, row: GameRow) -> LiveGame:
     """The game whose row this is."""
     match = connection.execute(_MATCH, {"id": row.match_id}).one()
     score = score_of(connection, match.id) if row.number else (0.0, 0.0)
-    return LiveGame(row, Fixture(match, (match.name_0, match.name_1), score), Game.from_dict(row.state))
+    fixture = Fixture(match, (match.name_0, match.name_1), score, withheld(connection, match))
+    return LiveGame(row, fixture, Game.from_dict(row.state))
 
 
 def hold(connection: Connection, game_id: str) -> LiveGame:
@@ -293,10 +297,9 @@ _SINCE_LAST: Final = _strokes_since(_LAST)
 _SINCE_OWN: Final = _strokes_since(_LAST.where(moves.c.seat == bindparam("seat")))
 
 
-def noise_view(match: Row[Any]) -> NoiseView:
-    """What everybody may know of a match's noise: the level is a secret until the end unless it is told."""
-    told = match.noise_told or match.status in (FINISHED, ABORTED)
-    return NoiseView(told=match.noise_told, level=match.noise_level if told else None)
+def noise_view(match: Row[Any], until: Holder | None) -> NoiseView:
+    """What everybody may know of a match's noise: no level while it is `withheld`."""
+    return NoiseView(told=match.noise_told, level=match.noise_level if until is None else None)
 
 
 def budget_view(match: Row[Any]) -> BudgetView | None:
