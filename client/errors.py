@@ -20,6 +20,8 @@
         ├── Conflict            409
         │   ├── GameFinished
         │   ├── GameUnfinished
+        │   ├── MatchUnfinished
+        │   ├── TournamentUnfinished
         │   ├── NotYourTurn
         │   ├── OutOfTime
         │   ├── BudgetSpent
@@ -185,6 +187,18 @@ class GameUnfinished(Conflict):
     """The game is still on, and this is for finished ones."""
 
     code = ProblemCode.GAME_UNFINISHED
+
+
+class MatchUnfinished(Conflict):
+    """The match has untold noise and is still on; records of its games are given when it is over."""
+
+    code = ProblemCode.MATCH_UNFINISHED
+
+
+class TournamentUnfinished(Conflict):
+    """The tournament has untold noise and is still on; records of its games are given when it is over."""
+
+    code = ProblemCode.TOURNAMENT_UNFINISHED
 
 
 class NotYourTurn(Conflict):

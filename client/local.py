@@ -154,7 +154,10 @@ def _name(player: Player) -> str:
 
 
 def over_message(game: PlayedGame, seat: int, last: View, score: tuple[float, float]) -> GameOver:
-    """What a server would tell the player of this seat at the end of the game; ``last`` is the view it saw last."""
+    """What a server would tell the player of this seat at the end of the game; ``last`` is the view it saw last.
+
+    Not the seed of noise that is not told: more games may follow with the same level.
+    """
     header, outcome, strokes = game.header, game.outcome, game.strokes
     terms = GameTerms.model_construct(**{name: getattr(last, name) for name in GameTerms.model_fields})
     after = strokes[-1].game if strokes else header.start
@@ -170,7 +173,7 @@ def over_message(game: PlayedGame, seat: int, last: View, score: tuple[float, fl
         outcome=OutcomeView.of(outcome),
         won=None if outcome.winner is None else outcome.winner == seat,
         score=score,
-        noise_seed=game.seeds.noise_seed.hex(),
+        noise_seed=game.seeds.noise_seed.hex() if header.terms.noise.told else None,
         record="",
         view=view,
     )

@@ -14,6 +14,8 @@
     ├── SlowBody                408
     ├── GameFinished            409
     ├── GameUnfinished          409
+    ├── MatchUnfinished         409  of a match with untold noise
+    ├── TournamentUnfinished    409  of an event with untold noise
     ├── NotYourTurn             409
     ├── OutOfTime               409
     ├── BudgetSpent             409
@@ -140,6 +142,18 @@ class GameUnfinished(ServerError):
     """The game is still on."""
 
     status, code = 409, ProblemCode.GAME_UNFINISHED
+
+
+class MatchUnfinished(ServerError):
+    """The match has untold noise and is still on."""
+
+    status, code = 409, ProblemCode.MATCH_UNFINISHED
+
+
+class TournamentUnfinished(ServerError):
+    """The tournament has untold noise and is still on."""
+
+    status, code = 409, ProblemCode.TOURNAMENT_UNFINISHED
 
 
 class NotYourTurn(ServerError):

@@ -51,7 +51,10 @@ class Settings:
     registration: str = setting("open", "who may register agents: `open`, `invited`, `closed`", one_of=REGISTRATIONS)
     public_reads: bool = setting(True, "whether games, lists and records are read without a token")
     token_seconds: float = setting(0.0, "how long agents' tokens are good for; 0: until revoked", zero=True)
-    fetch_grace: float = setting(5.0, "a turn that nobody fetches starts its clock after so long")
+    fetch_grace: float = setting(
+        1.0, "given back of every turn for the wait until its player fetches it; 0: nothing", zero=True
+    )
+    fetch_grace_game: float = setting(5.0, "of that, given back at most to a player in a game; 0: nothing", zero=True)
     no_show_seconds: float = setting(60.0, "a player whose first turn nobody fetches for so long loses")
     lag_turn: float = setting(0.05, "given back of every turn for the way there and back; 0: nothing", zero=True)
     lag_game: float = setting(5.0, "given back at most to a player in a game; 0: nothing", zero=True)

@@ -3,11 +3,25 @@
 from collections import Counter
 from collections.abc import Sequence
 
-from referee.game import Outcome
+from referee.game import EndReason, Outcome
 from referee.play.clock import SECOND_NS
 from referee.record import Record
 from tournament.pairings import Due
 from tournament.results import GameResult
+
+
+def called_off(due: Due) -> GameResult:
+    """The result of a game that was called off before it began: it counts for nothing, and is played again."""
+    return GameResult(
+        due.pair.id,
+        due.leg,
+        due.pair.players,
+        due.breaker,
+        None,
+        EndReason.ABORTED,
+        noise=due.pair.noise,
+        attempt=due.attempt,
+    )
 
 
 def result_of(record: Record, due: Due, simulated: Sequence[int] = (0, 0), place: str = "") -> GameResult:

@@ -130,9 +130,11 @@ class Spec:
         seconds: thinking time a player has for a game, 0.001 to 86,400; None: no wall clock.
         simulated_shots: shots a player may simulate in a game; None: any number.
         table: ``"olympiad"``, ``"fastfiz"`` or a table's parameters as ``physics.Table.to_dict`` gives them.
-        seed: an integer (a repeatable event that everybody can foresee), or 64 hexadecimal digits (a secret: keep
-            it until the end). Pairings drawn by lot, levels, racks and noise come from it.
+        seed: lots, levels, racks and noise come from it. Left out (None), a server draws 256 bits; without a server the
+            event repeats. Chosen, for a test that is to repeat: an integer, or 64 hexadecimal digits.
         sprt: stop as soon as this test decides; for two entrants.
+        lots: 64 hexadecimal digits that a server has drawn beside the seed: order, lots and levels come from them, and
+            tell nothing of racks and noise. None wherever the seed was chosen.
 
     Raises:
         InvalidSpec: naming the field, its value and what is allowed.
@@ -152,8 +154,9 @@ class Spec:
     seconds: float | None = 300.0
     simulated_shots: int | None = None
     table: str | Mapping[str, Any] = "olympiad"
-    seed: int | str = 0
+    seed: int | str | None = None
     sprt: SprtTerms | None = None
+    lots: str | None = None
 
     def __post_init__(self) -> None:
         for name, value in _checked(self).items():
@@ -166,9 +169,15 @@ class Spec:
         """The entrants' names, as listed."""
         return tuple(entrant.name for entrant in self.entrants)
 
+    @property
+    def foreseeable(self) -> bool:
+        """Whether somebody can know racks and noise in advance: no server has drawn them."""
+        return self.lots is None
+
     def to_dict(self) -> dict[str, Any]:
-        """JSON form, the seed included: as long as the event goes on, this is for the organiser alone."""
-        return {
+        """JSON form, seed and lots included: as long as the event goes on, this is for whoever runs it alone."""
+        lots = {} if self.lots is None else {"lots": self.lots}
+        return lots | {
             "name": self.name,
             "entrants": [entrant.to_dict() for entrant in self.entrants],
             "format": self.format.value,
@@ -190,28 +199,31 @@ class Spec:
     def published(self) -> dict[str, Any]:
         """The terms as everybody may read them while the event goes on.
 
-        Without the seed, without levels of noise that the players are not told, and without what the players run.
+        Without seed and lots, without levels of noise that the players are not told, and without what the players run;
+        with ``foreseeable``.
         """
-        terms = self.to_dict() | {"noise": self.noise.published()}
-        del terms["seed"]
-        return terms | {"entrants": [{"name": name} for name in self.names]}
+        terms = {name: value for name, value in self.to_dict().items() if name not in ("seed", "lots")}
+        entrants = [{"name": name} for name in self.names]
+        return terms | {"noise": self.noise.published(), "entrants": entrants, "foreseeable": self.foreseeable}
 
     def revealed(self) -> dict[str, Any]:
         """The same when the event is over: nothing but what the players run is kept back."""
-        return self.published() | {"noise": self.noise.to_dict(), "seed": self.seed}
+        lots = {} if self.lots is None else {"lots": self.lots}
+        return self.published() | {"noise": self.noise.to_dict(), "seed": self.seed} | lots
 
     @classmethod
     def from_dict(cls, data: Any) -> Self:
         """Read a JSON object or a TOML table.
 
         What is left out has its default; ``"preset"`` names one of ``PRESETS``, whose values what is given here
-        overrides. Unknown keys are refused.
+        overrides. Unknown keys are refused; ``"foreseeable"``, which published terms have, follows from the others.
 
         Raises:
             InvalidSpec: naming the field, its value and what is allowed.
         """
         known = [one.name for one in fields(cls)]
-        values = expand(_check.object("event", data, (*known, "preset"), ("name", "entrants")))
+        values = expand(_check.object("event", data, (*known, "preset", "foreseeable"), ("name", "entrants")))
+        _check_foreseeable(values)
         entrants = _check.items("entrants", values["entrants"], 2, MOST_ENTRANTS)
         values["entrants"] = tuple(Entrant.from_dict(one) for one in entrants)
         if "noise" in values:
@@ -221,8 +233,8 @@ class Spec:
         return cls(**values)
 
     def with_seed(self, seed: int | str) -> Self:
-        """The same terms with another seed."""
-        return replace(self, seed=seed)
+        """The same terms with a seed that is chosen."""
+        return replace(self, seed=seed, lots=None)
 
 
 def _checked(spec: Spec) -> dict[str, Any]:
@@ -250,6 +262,7 @@ def _checked(spec: Spec) -> dict[str, Any]:
         else _check.integer("simulated_shots", spec.simulated_shots, 0, MOST_SHOTS),
         "table": _table(spec.table),
         "seed": _seed(spec.seed),
+        "lots": None if spec.lots is None else _digits("lots", spec.lots),
         "sprt": None if spec.sprt is None else _kind("sprt", spec.sprt, SprtTerms),
     }
 
@@ -279,12 +292,29 @@ def _table(value: Any) -> str | Mapping[str, Any]:
         _check.fail(f"table.{error.field}", error.value, error.allowed)
 
 
-def _seed(value: Any) -> int | str:
-    if isinstance(value, str):
-        if len(value) != 64 or not set(value) <= set("0123456789abcdef"):
-            _check.fail("seed", f"<{len(value)} letters>", "64 lower-case hexadecimal digits, or an integer")
-        return value
-    return _check.integer("seed", value, 0, 2**63 - 1)
+def _seed(value: Any) -> int | str | None:
+    if value is None:
+        return None
+    return _digits("seed", value) if isinstance(value, str) else _check.integer("seed", value, 0, 2**63 - 1)
+
+
+def _digits(field: str, value: Any) -> str:
+    """A secret in writing; the error does not repeat it."""
+    if not isinstance(value, str):
+        _check.fail(field, type(value).__name__, "64 lower-case hexadecimal digits")
+    if len(value) != 64 or not set(value) <= set("0123456789abcdef"):
+        also = ", or an integer" if field == "seed" else ""
+        _check.fail(field, f"<{len(value)} letters>", f"64 lower-case hexadecimal digits{also}")
+    return value
+
+
+def _check_foreseeable(values: dict[str, Any]) -> None:
+    """Take the mark off published terms; a seed that was chosen is never one that nobody can foresee."""
+    given = values.pop("foreseeable", None)
+    if given is False and values.get("seed") is not None and values.get("lots") is None:
+        _check.fail("foreseeable", given, "true where a seed is chosen")
+    if given is not None:
+        _check.flag("foreseeable", given)
 
 
 def _check_names(entrants: tuple[Entrant, ...]) -> None:
@@ -309,6 +339,8 @@ def _check_together(spec: Spec) -> None:
     most = _most_meetings(spec) * (spec.pairs + (spec.extra_pairs if spec.format is Format.KNOCKOUT else 0))
     if most > MOST_IN_EVENT:
         _check.fail("pairs", spec.pairs, f"at most {MOST_IN_EVENT} pairs of games in an event; these terms make {most}")
+    if spec.lots is not None and isinstance(spec.seed, int):
+        _check.fail("lots", "<64 letters>", "nothing: the seed is chosen")
     if spec.sprt is not None and (len(spec.entrants) != 2 or spec.format is Format.KNOCKOUT):
         _check.fail("sprt", f"{len(spec.entrants)} entrants, {spec.format}", "two entrants, and no knockout")
 

@@ -41,8 +41,7 @@ class EventDirectory:
         with directory.alone():
             if (path / TERMS).exists():
                 raise EventError(f"{path} holds an event already: go on with `pooliad tournament resume {path}`")
-            # the seed is a secret while the event goes on
-            write_whole(path / TERMS, (json.dumps(terms, indent=2) + "\n").encode(), mode=0o600)
+            directory.keep_terms(terms)
         return directory
 
     @classmethod
@@ -71,8 +70,12 @@ class EventDirectory:
         """Where the agents' standard error goes."""
         return self.path / "logs"
 
+    def keep_terms(self, terms: dict[str, Any]) -> None:
+        """Write the terms; the seed is a secret while the event goes on."""
+        write_whole(self.path / TERMS, (json.dumps(terms, indent=2) + "\n").encode(), mode=0o600)
+
     def terms(self) -> Any:
-        """What ``create`` was given."""
+        """What was kept last."""
         try:
             return json.loads((self.path / TERMS).read_text(encoding="utf-8"))
         except ValueError as error:

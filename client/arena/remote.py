@@ -7,6 +7,7 @@ import secrets
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -16,14 +17,24 @@ from client.arena.process import ProcessSeat
 from client.arena.runner import Observer
 from client.arena.table import LONGEST_REPORT
 from client.arena.terms import Terms
-from client.errors import ApiError, BudgetSpent, NameTaken, PooliadError, Unprocessable
+from client.errors import (
+    ApiError,
+    BudgetSpent,
+    Conflict,
+    MatchUnfinished,
+    NameTaken,
+    PooliadError,
+    TournamentUnfinished,
+    Unprocessable,
+)
 from client.http import Pooliad
 from client.retry import Retry
 from referee import Action, EndReason, Outcome, SimulationBudget
 from referee.play.local import TRIES, Lost
+from referee.play.seeds import SEED_BYTES
 from referee.record import read_record
-from referee.wire import GameOver, NumberedEntry, TournamentRequest, Turn, View
-from tournament import Event, GameResult, TournamentError
+from referee.wire import GameOver, NumberedEntry, SeedWanted, TournamentRequest, Turn, View
+from tournament import Event, GameResult, Spec, TournamentError
 from tournament.ledger import Ledger
 
 PLACE = "server.json"
@@ -33,6 +44,9 @@ POLL = 2.0
 """Seconds a hosted entrant's long poll waits: so long it may take to leave."""
 PAUSE = 1.0
 """Seconds between tries of an entrant whose connection fails."""
+GAMES = "games"
+RECORD = "record"
+"""Field of a journal's entry: where the server has the record, which it keeps back until the event is over."""
 NUMBER = "number"
 """Field of a journal's entry that was taken over: its number at the server."""
 _RECORD = re.compile(r"/v1/games/([^/]+)/record")
@@ -98,12 +112,21 @@ class RemoteRunner:
             if place.url != self._url:
                 raise EventError(f"{self._directory.path} is an event at {place.url}, not at {self._url}")
             return place
+        if self._terms.spec.lots is not None:  # of an event whose place could not be written down
+            self._drawn(replace(self._terms.spec, lots=None))
         agents = {name: self._agent(server, name, hosting) for name, hosting in self._terms.hosting.items()}
         made = server.create_tournament(TournamentRequest(terms=self._terms.spec.to_dict(), agents=agents))
+        self._drawn(replace(self._terms.spec, lots=server.tournament_entries(made.id, 0).lots))
         place = Place(self._url, made.id, agents)
         values = {"url": place.url, "tournament": place.tournament, "agents": place.agents}
         write_whole(path, json.dumps(values, indent=2).encode())
         return place
+
+    def _drawn(self, spec: Spec) -> None:
+        """Keep what the server has drawn, in the terms: its lots when the event is made, its seed when it is over."""
+        self._terms = replace(self._terms, spec=spec)
+        self._directory.keep_terms(self._terms.to_dict())
+        self._ledger = replace(self._ledger, event=replace(self._ledger.event, spec=spec))
 
     def _agent(self, server: Pooliad, name: str, hosting: Hosting) -> str:
         """The entrant's agent: the one that plays by itself, or a new one for us to play."""
@@ -150,9 +173,21 @@ class RemoteRunner:
             self._take(server, place)
             running = sum(game.status == "running" for game in view.played)
             self._observer(self._ledger, running)
-            if view.status in ("finished", "aborted") or (view.status == "paused" and running == 0):
+            if view.status in ("finished", "aborted"):
+                self._close(server, view.terms)
+                return
+            if view.status == "paused" and running == 0:
                 return
             self._stop.wait(LOOK_EVERY)
+
+    def _close(self, server: Pooliad, terms: dict[str, Any]) -> None:
+        """Take over what the server kept back while the event went on: its seed, and records with untold noise."""
+        spec = self._terms.spec
+        if spec.lots is not None and spec.seed is None and "seed" in terms:
+            self._drawn(replace(spec, seed=terms["seed"]))
+        for entry in self._directory.journal.new():
+            if record := entry.fields.get(RECORD):
+                self._fetched(server, replace(GameResult.from_dict(entry.fields["result"]), record=record))
 
     def _take(self, server: Pooliad, place: Place) -> None:
         """Put the server's entries that are new into the journal, one after the other as the server has them."""
@@ -174,14 +209,24 @@ class RemoteRunner:
             raise EventError(f"{self._journal.path} does not fit the event: {error}") from None
 
     def _keep(self, server: Pooliad, entry: NumberedEntry) -> None:
-        """Journal an entry; a game's record is put in its place first, so that a result in the journal has one."""
+        """Journal an entry; a game's record is put in its place first, so that a result in the journal has one.
+
+        A record with untold noise follows when the event is over: until then the entry says where it is.
+        """
         fields = entry.fields
         if entry.kind == "game":
-            fields = fields | {"result": self._fetched(server, GameResult.from_dict(fields["result"])).to_dict()}
+            result = GameResult.from_dict(fields["result"])
+            try:
+                fields = fields | {"result": self._fetched(server, result).to_dict()}
+            except (MatchUnfinished, TournamentUnfinished):
+                here = replace(result, record=f"{GAMES}/{result.id}.jsonl")
+                fields = fields | {"result": here.to_dict(), RECORD: result.record}
         self._journal.append(entry.kind, **{NUMBER: entry.number}, **(fields | {"by": entry.by}))
 
     def _fetched(self, server: Pooliad, result: GameResult) -> GameResult:
-        """The result with its record in this directory."""
+        """The result with its record in this directory; a game that was called off before it began has none."""
+        if not result.record:
+            return result
         found = _RECORD.fullmatch(result.record)
         if found is None:
             raise EventError(f"{result.id}: record = {result.record!r}: must be /v1/games/ID/record")
@@ -192,7 +237,7 @@ class RemoteRunner:
             raise EventError(f"{result.id} ended by {said} in its record, by {told} in the event")
         path = self._directory.games / f"{result.id}.jsonl"
         write_whole(path, record)
-        return replace(result, record=f"games/{path.name}")
+        return replace(result, record=f"{GAMES}/{path.name}")
 
     @property
     def has_clocks(self) -> bool:
@@ -253,6 +298,9 @@ class _Player:
             view: View | None = message.view
             while view is not None and view.my_turn and not self._runner.rests():
                 view = self._answer(server, seat, view)
+        elif isinstance(message, SeedWanted):
+            with contextlib.suppress(Conflict):  # too late is no harm
+                server.add_seed(message.match, secrets.token_hex(SEED_BYTES))
         elif isinstance(message, GameOver):
             seat.over(message)
 

@@ -34,11 +34,14 @@ class Terms:
             EventError: it cannot be read, or something in it cannot be: field, value and what is allowed.
         """
         try:
-            return cls.from_dict(tomllib.loads(path.read_text(encoding="utf-8")))
+            terms = cls.from_dict(tomllib.loads(path.read_text(encoding="utf-8")))
         except (OSError, ValueError, RecursionError) as error:  # no text, no TOML, a number of thousands of digits
             raise EventError(f"{path} cannot be read: {error}") from None
         except EventError as error:
             raise EventError(f"{path}: {error}") from None
+        if terms.spec.lots is not None:
+            raise EventError(f"{path}: lots = <secret>: must be left out; a server draws them")
+        return terms
 
     @classmethod
     def from_dict(cls, data: Any) -> Self:
@@ -63,7 +66,8 @@ class Terms:
     @property
     def agent_seed(self) -> int:
         """The seed of the shipped agents' choices; it tells nothing of the event's own."""
-        return int.from_bytes(hashlib.sha256(f"pooliad/1 agents {self.spec.seed}".encode()).digest()[:4])
+        text = self.spec.lots or self.spec.seed or 0
+        return int.from_bytes(hashlib.sha256(f"pooliad/1 agents {text}".encode()).digest()[:4])
 
     def game(self, due: Due) -> GameTask:
         """A game as a worker needs it."""

@@ -108,11 +108,14 @@ def report(
     import json
 
     from client.arena.directory import write_whole
+    from client.arena.remote import PLACE
     from tournament.report import csv_text, event_report, json_lines, page
 
     event = _opened(directory)
     played = _ledger(event).event
-    data = event_report(played, _luck(directory, played.counted) if luck else None)
+    at_server = (directory / PLACE).exists()  # there a seed is chosen for tests alone, and nobody is rated
+    rated = not (at_server and played.spec.foreseeable)
+    data = event_report(played, _luck(directory, played.counted) if luck else None, rated=rated)
     texts = {
         "report.html": page(data),
         "report.json": json.dumps(data, ensure_ascii=False, allow_nan=False, indent=2) + "\n",

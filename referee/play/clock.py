@@ -70,7 +70,7 @@ class Clocks:
 
 @dataclass(frozen=True, slots=True)
 class LagAllowance:
-    """What the way to and from a server costs a player, given back: the same for everybody, whoever says what.
+    """What a server gives back of a turn: the same for everybody, whatever a client says.
 
     Attributes:
         turn_ns: given back at most for one turn.
@@ -89,9 +89,15 @@ class LagAllowance:
         """What a turn may be given at most when the game has given ``granted_ns`` already."""
         return max(0, min(self.turn_ns, self.game_ns - granted_ns))
 
-    def charge(self, measured_ns: int, granted_ns: int) -> "Charge":
-        """What a turn of ``measured_ns`` costs when the game has given ``granted_ns`` already."""
-        return Charge(measured_ns, min(measured_ns, self.left_ns(granted_ns)))
+    def charge(self, measured_ns: int, granted_ns: int, grace_ns: int = 0) -> "Charge":
+        """What a turn of ``measured_ns`` costs when the game has given ``granted_ns`` already.
+
+        Args:
+            measured_ns: from the moment the turn was available, the grace included.
+            granted_ns: of lag, in earlier turns.
+            grace_ns: given back for the wait until the turn was fetched; the lag is of what is left.
+        """
+        return Charge(measured_ns, min(measured_ns - grace_ns, self.left_ns(granted_ns)), grace_ns)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,17 +105,19 @@ class Charge:
     """One turn on a clock.
 
     Attributes:
-        measured_ns: how long it took, as the server saw it.
-        lag_ns: what of it was given back.
+        measured_ns: how long it took, as the server saw it, from the moment it was available.
+        lag_ns: what of it was given back for the way to the server and back.
+        grace_ns: what of it was given back for the wait until the player fetched it.
     """
 
     measured_ns: int
     lag_ns: int
+    grace_ns: int = 0
 
     @property
     def charged_ns(self) -> int:
         """What the player's clock lost."""
-        return self.measured_ns - self.lag_ns
+        return self.measured_ns - self.lag_ns - self.grace_ns
 
 
 def nanoseconds(seconds: float) -> int:

@@ -10,17 +10,20 @@ from referee.wire.values import Identifier, Integer, Message, Number, Request, S
 
 
 class ChargeView(Message):
-    """One turn that is over: ``charged_ns`` is ``measured_ns`` less ``lag_ns``.
+    """One turn that is over: ``charged_ns`` is ``measured_ns`` less ``lag_ns`` and ``grace_ns``.
 
     Attributes:
         move: the number of the stroke or decision that ended it; null when it ended from outside.
-        measured_ns: how long it took, by the server's clock. lag_ns: what of it was given back.
+        measured_ns: how long it took, by the server's clock, from the moment it was available.
+        lag_ns: what of it was given back for the way to the server and back.
+        grace_ns: what of it was given back for the wait until its player fetched it.
     """
 
     seat: Seat
     move: Integer | None
     measured_ns: Integer
     lag_ns: Integer
+    grace_ns: Integer = 0
     charged_ns: Integer
     at: datetime
 
@@ -30,6 +33,7 @@ class SeatLedger(Message):
 
     charged_ns: Integer
     lag_ns: Integer
+    grace_ns: Integer = 0
     simulated: Integer
 
 
@@ -39,7 +43,7 @@ class ClockLedger(Message):
     Attributes:
         seconds, simulations: of each player; null simulations: any number.
         lag_turn_seconds, lag_game_seconds: given back at most for a turn, and to one player in a game.
-        grace_seconds: an unfetched turn's clock starts after so long.
+        grace_seconds, grace_game_seconds: likewise for the wait until a turn is fetched.
         no_show_seconds: a player's first turn may lie unfetched for so long.
         clocks: as they stand now. players, charges: as charged so far, the running turn not counted.
     """
@@ -50,6 +54,7 @@ class ClockLedger(Message):
     lag_turn_seconds: Number
     lag_game_seconds: Number
     grace_seconds: Number
+    grace_game_seconds: Number = 0.0
     no_show_seconds: Number
     clocks: tuple[ClockView, ClockView]
     players: tuple[SeatLedger, SeatLedger]

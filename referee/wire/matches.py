@@ -62,11 +62,12 @@ class MatchRequest(Request):
     Attributes:
         agents: ids, by seat.
         games: how many.
-        seed: the secret match seed, 64 hexadecimal digits, from which racks, noise and the first breaker
-            come. Only an organiser may give one, to repeat a match; otherwise the server draws it.
+        seed: left out, so that the server draws 256 bits. Only an organiser may choose one (64 hexadecimal digits), to
+            repeat a match in a test: racks, noise and the first breaker follow from it, the match is marked
+            ``foreseeable`` and counts for no rating.
         start: where every game begins instead of a break; such a match is unrated.
-        rated: whether the match is to count for ratings; one from a position or with a house bot does not, whatever
-            is asked for (an organiser's with a house bot does).
+        rated: whether the match is to count for ratings; one from a position, with a chosen seed or with a house bot
+            does not, whatever is asked for (an organiser's with a house bot does).
         racks: which are to be equal.
         first_breaker: seat; drawn unless an organiser gives it.
         client_seed_seconds: how long the players may add seeds of their own before the first rack; 0 starts the
@@ -136,7 +137,8 @@ class GameSummary(Message):
     Attributes:
         breaker: the seat that broke, or will.
         commitment: of the match (docs/protocol.md, Commitment).
-        noise_seed: from which the game's noise came, once the game is over.
+        noise_seed: from which the game's noise came, once the game is over; where noise is not told, once the match is
+            over and the tournament that it belongs to.
     """
 
     id: Identifier
@@ -172,6 +174,7 @@ class MatchView(Message):
         challenger: seat of the agent who challenged; null for a match by an organiser.
         start: the position the games begin from; null when they begin with a break.
         rated: whether the match counts for ratings.
+        foreseeable: somebody chose its seed, and knew its racks and noise in advance; then it is not rated.
     """
 
     id: Identifier
@@ -194,6 +197,7 @@ class MatchView(Message):
     played: tuple[GameSummary, ...]
     start: Position | None
     rated: Flag
+    foreseeable: Flag = False
     created_at: datetime
 
 

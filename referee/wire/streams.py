@@ -36,13 +36,13 @@ class StreamResult(Message):
     """Event ``result``: the game is over, and so is the stream.
 
     Attributes:
-        score: of the match, by seat. noise_seed: revealed. record: path of the record.
+        score: of the match, by seat. noise_seed: revealed; null as in ``GameOver``. record: path of the record.
     """
 
     status: GameStatus
     outcome: OutcomeView
     score: tuple[Number, Number]
-    noise_seed: Digest
+    noise_seed: Digest | None
     record: str
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import ConfigDict, Field, StringConstraints
 
 from referee.wire.outcomes import OutcomeView
-from referee.wire.values import Flag, Identifier, Integer, Message, Number, Request
+from referee.wire.values import Digest, Flag, Identifier, Integer, Message, Number, Request
 
 TournamentStatus = Literal["created", "running", "paused", "finished", "aborted"]
 EntrantName = Annotated[str, StringConstraints(min_length=1, max_length=64)]
@@ -19,7 +19,8 @@ class TournamentRequest(Request):
 
     Attributes:
         terms: as in an event file (docs/running-tournaments.md): ``name``, ``entrants``, ``format``, ``pairs``, ...
-            The seed is a secret of the organiser's; drawn by the server unless given.
+            Leave the seed out: the server draws 256 bits. A chosen one is for tests: the event is marked
+            ``foreseeable`` and nobody is rated by it.
         agents: entrant's name to the id of the agent that plays under it. An entrant left out is played by the
             agent of the same name.
     """
@@ -86,11 +87,16 @@ class NumberedEntry(EntryView):
 class EntriesPage(Message):
     """``GET /v1/tournaments/{id}/entries``: results and decisions in the order in which they were noted.
 
-    How an event stands follows from its terms and its entries alone (``tournament.ledger``).
+    How an event stands follows from its terms, its lots and its entries alone (``tournament.ledger``).
+
+    Attributes:
+        lots: the secret that order, lots and levels come from, which tells nothing of racks and noise; null where all
+            come from a chosen seed.
     """
 
     entries: tuple[NumberedEntry, ...]
     next_cursor: str | None = None
+    lots: Digest | None = None
 
 
 class TournamentGame(Message):
@@ -121,6 +127,7 @@ class TournamentSummary(Message):
     """An event in a list.
 
     Attributes:
+        foreseeable: its seed was chosen, so that racks and noise can be known in advance: nobody is rated by it.
         games: counted so far; due: games that are certain and not finished.
     """
 
@@ -128,6 +135,7 @@ class TournamentSummary(Message):
     name: str
     status: TournamentStatus
     format: str
+    foreseeable: Flag
     entrants: tuple[str, ...]
     games: Integer
     due: Integer
@@ -140,7 +148,8 @@ class TournamentView(TournamentSummary):
     """An event.
 
     Attributes:
-        terms: as published: the seed, and levels of noise that the players are not told, when the event is over.
+        terms: as published, with ``foreseeable``; the seed, and levels of noise that the players are not told, when the
+            event is over.
         agents: entrant's name to agent id.
         played: games that were begun, in order. log: what was decided.
     """
@@ -198,7 +207,8 @@ class StandingsView(Message):
     """``GET /v1/tournaments/{id}/standings``.
 
     Attributes:
-        standings: the best first. ratings: likewise; nobody's while no game counts.
+        standings: the best first.
+        ratings: likewise; nobody's while no game counts, nor in an event that can be foreseen.
     """
 
     tournament: Identifier

@@ -21,7 +21,8 @@ class GameOver(Message):
     """A game of the caller has ended; the message is delivered once.
 
     Attributes:
-        noise_seed: from which the game's noise came, revealed; the record leads from it to the commitment.
+        noise_seed: from which the game's noise came, revealed; the record leads from it to the commitment. Null while
+            the match, or its tournament, is on with a level of noise that is not told.
         record: path of the record.
     """
 
@@ -33,7 +34,7 @@ class GameOver(Message):
     outcome: OutcomeView
     won: Flag | None
     score: tuple[Number, Number]
-    noise_seed: Digest
+    noise_seed: Digest | None
     record: str
     view: View
 

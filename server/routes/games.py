@@ -8,11 +8,13 @@ from server.errors import (
     GameFinished,
     GameUnfinished,
     Invalid,
+    MatchUnfinished,
     NotFound,
     NotYourTurn,
     OutOfTime,
     Refused,
     StaleVersion,
+    TournamentUnfinished,
     Unauthorized,
     VersionRequired,
 )
@@ -99,10 +101,17 @@ def shots(game_id: str, context: Server, cursor: Cursor, limit: Limit) -> ShotsP
 
 @router.get(
     "/record",
-    **describe(NotFound, GameUnfinished, Unauthorized, success={200: RECORD_TYPE}, token=False),
+    **describe(
+        *(NotFound, GameUnfinished, MatchUnfinished, TournamentUnfinished, Unauthorized),
+        success={200: RECORD_TYPE},
+        token=False,
+    ),
     dependencies=[ANYBODY],
     summary="The record of a finished game",
 )
 def record(game_id: str, context: Server) -> Response:
-    """JSON lines with everything that happened and the revealed seed, for `pooliad replay verify`."""
+    """JSON lines with everything that happened and the revealed seed, for `pooliad replay verify`.
+
+    With noise that the players are not told: when the match is over, and the tournament that it belongs to.
+    """
     return Response(history.record(context, game_id), media_type=RECORD_TYPE)

@@ -27,7 +27,10 @@ router = APIRouter(prefix="/v1/tournaments", tags=["tournaments"])
     summary="Make a tournament",
 )
 def create(context: Server, command: Sent) -> Response:
-    """For the organiser; no match is made before it is started."""
+    """For the organiser; no match is made before it is started.
+
+    The server draws the seed; one in the terms is for tests, and marks the event `foreseeable`.
+    """
     return respond(tournaments.create(context, command))
 
 
@@ -58,7 +61,10 @@ def listing(
     summary="One tournament",
 )
 def one(tournament_id: str, context: Server) -> TournamentView:
-    """Its terms, its games with their matches, and what was decided. The seed is there when it is over."""
+    """Its terms, its games with their matches, and what was decided.
+
+    The seed is there when it is over, and so are levels of noise that the players are not told.
+    """
     return tournaments.one(context, tournament_id)
 
 
@@ -69,7 +75,7 @@ def one(tournament_id: str, context: Server) -> TournamentView:
     summary="How the entrants stand",
 )
 def standings(tournament_id: str, context: Server) -> StandingsView:
-    """The best first."""
+    """The best first. Nobody is rated in an event that can be foreseen."""
     return tournaments.standings(context, tournament_id)
 
 

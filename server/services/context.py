@@ -11,7 +11,7 @@ from anyio import CapacityLimiter, to_thread
 from sqlalchemy import Connection
 
 from physics.self_test import SelfTest
-from referee.play import nanoseconds
+from referee.play import LagAllowance, nanoseconds
 from server import failpoints
 from server.failpoints import Failpoint
 from server.ops.metrics import Metrics
@@ -76,9 +76,9 @@ class Context:
         return await to_thread.run_sync(work, limiter=self.aside)
 
     @property
-    def fetch_grace(self) -> int:
-        """Nanoseconds a turn may lie unfetched before its clock starts by itself."""
-        return nanoseconds(self.settings.fetch_grace)
+    def grace(self) -> LagAllowance:
+        """What is given back of a turn for the wait until its player fetches it."""
+        return LagAllowance(nanoseconds(self.settings.fetch_grace), nanoseconds(self.settings.fetch_grace_game))
 
     @property
     def no_show_after(self) -> int:

@@ -15,19 +15,21 @@ from server.errors import NotFound
 from server.services import history
 from server.services.context import Context, Writing
 from server.services.courses import Course
-from server.services.live import RUNNING
 from server.services.matches import insert_match
 from server.services.openings import begin_or_wait
+from server.services.secrecy import EVENT_OPEN, ON_THE_TABLE
 from server.store.locks import only_one
 from server.store.rows import GameRow
 from server.store.tables import games, matches, tournament_entries, tournament_games, tournaments
 from tournament import Due, Event, Spec
-from tournament.from_record import result_of
+from tournament.from_record import called_off, result_of
 from tournament.ledger import Act, Ledger
 from tournament.seeds import match_seed
 
 STATUSES: Final[tuple[str, ...]] = get_args(TournamentStatus)
-OPEN: Final = ("created", "running", "paused")
+OPEN: Final = EVENT_OPEN
+SEED_SECONDS: Final = 5.0
+"""How long a match of an event waits for the seeds of its players."""
 RESULT: Final = "game"
 """The kind of a result's entry."""
 SERVER: Final = "server"
@@ -124,9 +126,9 @@ def stray_matches(context: Context, tournament_id: str) -> list[str]:
 
 
 def running_games(connection: Connection, tournament_id: str) -> list[Row[Any]]:
-    """The games of the event whose matches are running."""
+    """The games of the event whose matches are running, or wait for the seeds of their players."""
     both = tournament_games.join(matches, matches.c.id == tournament_games.c.match_id)
-    ours = (tournament_games.c.tournament_id == tournament_id) & (matches.c.status == RUNNING)
+    ours = (tournament_games.c.tournament_id == tournament_id) & matches.c.status.in_(ON_THE_TABLE)
     columns = (*tournament_games.c, matches.c.seat_0, matches.c.seat_1)
     return list(connection.execute(select(*columns).select_from(both).where(ours)))
 
@@ -144,7 +146,10 @@ def _give_out(writing: Writing, row: Row[Any], ledger: Ledger) -> None:
 
 
 def _begin(writing: Writing, row: Row[Any], spec: Spec, due: Due) -> None:
-    """The match of one game; an event may do without a wall clock, a match at a server has one."""
+    """The match of one game; an event may do without a wall clock, a match at a server has one.
+
+    Its players add seeds of their own as in any match, unless the event has a chosen seed and is to repeat.
+    """
     seed = match_seed(spec, due.pair, due.leg, due.attempt)
     first, second = (row.agents[name] for name in due.pair.players)
     assert seed.given_racks is not None
@@ -157,8 +162,9 @@ def _begin(writing: Writing, row: Row[Any], spec: Spec, due: Due) -> None:
         seed=seed.secret.hex(),
         racks=RackTerms(seed=seed.given_racks.hex()),
         first_breaker=due.breaker,
+        client_seed_seconds=0.0 if spec.foreseeable else SEED_SECONDS,
     )
-    match = insert_match(writing, request, challenger=None)
+    match = insert_match(writing, request, challenger=None, foreseeable=spec.foreseeable)
     game = {"match_id": match.id, "tournament_id": row.id, "pair": due.pair.id, "leg": due.leg, "attempt": due.attempt}
     writing.connection.execute(insert(tournament_games).values(game))
     begin_or_wait(writing, match)
@@ -186,8 +192,11 @@ def _entries(
 
 
 def _result(connection: Connection, match_id: str, due: Due) -> dict[str, Any]:
-    """The result of a match's only game, from its record."""
-    game = GameRow.of(connection.execute(select(games).where(games.c.match_id == match_id)).one())
+    """The result of a match's only game, from its record; without one where it was called off before it began."""
+    row = connection.execute(select(games).where(games.c.match_id == match_id)).one_or_none()
+    if row is None:
+        return called_off(due).to_dict()
+    game = GameRow.of(row)
     record = read_record(history.record_lines(connection, game))
     simulated = (game.simulated_0, game.simulated_1)
     return result_of(record, due, simulated, f"/v1/games/{game.id}/record").to_dict()

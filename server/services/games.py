@@ -17,6 +17,7 @@ from server.security import keys
 from server.services import draws, notices, turn_clock
 from server.services.context import Writing
 from server.services.live import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of
+from server.services.secrecy import withheld
 from server.store.database import Overtaken
 from server.store.tables import charges, games, matches
 
@@ -52,13 +53,13 @@ def begin(writing: Writing, match: Row[Any], number: int) -> None:
         "state": game.to_dict(),
         "version": FIRST_VERSION,
         "status": RUNNING,
-        **dict.fromkeys(("used_0", "used_1", "lag_0", "lag_1", "simulated_0", "simulated_1"), 0),
+        **dict.fromkeys(("used_0", "used_1", "lag_0", "lag_1", "grace_0", "grace_1", "simulated_0", "simulated_1"), 0),
         **dict.fromkeys(("present_0", "present_1"), False),
         "started_at": writing.now,
         "header": chain.add(header.to_dict()),
         "head": chain.head,
     }
-    turn = turn_clock.mover(match, game) | turn_clock.available(writing, turn_clock.first_turn(match))
+    turn = turn_clock.mover(match, game) | turn_clock.available(writing, turn_clock.first_turn(writing, match))
     writing.connection.execute(insert(games).values(row | turn))
 
 
@@ -141,7 +142,10 @@ def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
         "head": chain.head,
     }
     live = _store(writing, live, game, end, values)
-    live = replace(live, fixture=replace(live.fixture, score=score_of(writing.connection, live.match.id)))
+    over = aborted or live.row.number + 1 >= live.match.games
+    until = withheld(writing.connection, live.match, over=over)
+    score = score_of(writing.connection, live.match.id)
+    live = replace(live, fixture=replace(live.fixture, score=score, withheld=until))
     notices.game_over(writing.connection, live, writing.now)
     writing.context.metrics.games_ended.labels(outcome.reason.value).inc()
     log.info("game over", extra={"fields": {"game": live.id} | outcome.to_dict()})
@@ -168,6 +172,7 @@ def _next_turn(writing: Writing, live: LiveGame, game: Game, charge: Charge) -> 
     clock = turn_clock.TurnClock(
         remaining=live.clocks.charged(live.game.turn, charge.charged_ns).remaining_ns(seat),
         lag=live.fixture.lag.left_ns(granted),
+        grace=0 if stays else writing.context.grace.left_ns(live.graces[seat]),
         present=stays or live.is_present[seat],
     )
     # a mover who stays at the table has the next view in the answer: the clock goes on at once
@@ -183,18 +188,20 @@ def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, turn: dic
         "version": live.row.version + 1,
         f"used_{seat}": live.clocks.used_ns[seat] + charge.charged_ns,
         f"lag_{seat}": live.granted[seat] + charge.lag_ns,
+        f"grace_{seat}": live.graces[seat] + charge.grace_ns,
         f"present_{seat}": live.is_present[seat] or end.move is not None,
     } | turn
     seen = {f"seen_{name}": getattr(live.row, name) for name in _COMPARED}
     if writing.connection.execute(_IF_UNCHANGED, values | seen).rowcount != 1:
         raise Moved
-    row = {"game_id": live.id, "seat": seat, "move": end.move, "measured": charge.measured_ns, "lag": charge.lag_ns}
-    writing.connection.execute(_CHARGE, row | {"created_at": writing.now})
+    row = {"game_id": live.id, "seat": seat, "move": end.move, "created_at": writing.now}
+    parts = {"measured": charge.measured_ns, "lag": charge.lag_ns, "grace": charge.grace_ns}
+    writing.connection.execute(_CHARGE, row | parts)
     return replace(live, row=replace(live.row, **values), game=game)
 
 
 _CHARGE: Final = insert(charges)
-_CLOCKED: Final = ("delivered", "available_at", "clock_from", "carried")
+_CLOCKED: Final = ("delivered", "available_at", "clock_from", "carried", "carried_grace")
 _COMPARED: Final = ("id", "version", *_CLOCKED, "present_0", "present_1")
 """Columns by which a game is known to be as it was read: the rest changes with its version alone, but for the counters
 of simulated shots, which are added to and not written: whoever simulates bounces nobody's stroke."""

@@ -143,7 +143,6 @@ def _take_up_games(writing: Writing, last: int) -> None:
         live = find(writing.connection, game_id)
         if not live.is_running:
             continue
-        carried = turn_clock.carried_on(live, live.running_for(last))
-        turn = turn_clock.available(writing, carried)
+        turn = turn_clock.available(writing, turn_clock.carried_on(writing, live, last))
         writing.connection.execute(update(games).where(games.c.id == game_id).values(turn))
         writing.woken.update(live.agents)

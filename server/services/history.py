@@ -1,16 +1,19 @@
 """Looking at games: how one stands, its strokes in pages, its record."""
 
 import json
+from collections.abc import Mapping
+from typing import Final
 
 from sqlalchemy import Connection, select
 
 from referee.wire import GameAnswer, ShotsPage, StrokeDetail
-from server.errors import GameUnfinished
+from server.errors import GameUnfinished, MatchUnfinished, ServerError, TournamentUnfinished
 from server.security.callers import Caller
 from server.services.commands import Answer
 from server.services.context import Context
 from server.services.live import LiveGame, find
 from server.services.match_views import summary
+from server.services.secrecy import Holder
 from server.store.rows import GameRow
 from server.store.tables import moves
 
@@ -25,7 +28,7 @@ def game(context: Context, game_id: str, reader: Caller | None) -> Answer:
 
 def answer(connection: Connection, live: LiveGame, seat: int | None, now: int) -> Answer:
     """The game as a seat sees it, None for a spectator; `ETag` is the version."""
-    message = GameAnswer(**summary(live.row), view=live.view(connection, seat, now))
+    message = GameAnswer(**summary(live.row, live.fixture.withheld), view=live.view(connection, seat, now))
     return Answer.of(200, message, etag=f'"{live.row.version}"')
 
 
@@ -43,13 +46,24 @@ def shots(context: Context, game_id: str, cursor: int, limit: int) -> ShotsPage:
 
 
 def record(context: Context, game_id: str) -> str:
-    """The record of a game that is over, as JSON lines; raises `GameUnfinished`."""
+    """The record of a game that is over, as JSON lines.
+
+    Raises `GameUnfinished`; while its noise is withheld `MatchUnfinished` or `TournamentUnfinished`: until when.
+    """
     with context.database.reading() as connection:
         live = find(connection, game_id)
         if live.is_running:
             raise GameUnfinished("the record, with the seed, is published when the game is over")
+        if live.fixture.withheld is not None:
+            raise _UNTIL[live.fixture.withheld](
+                f"the record shows a level of noise that the players are not told: it is published when the "
+                f"{live.fixture.withheld} is over"
+            )
         lines = record_lines(connection, live.row)
     return "".join(f"{line}\n" for line in lines)
+
+
+_UNTIL: Final[Mapping[Holder, type[ServerError]]] = {"match": MatchUnfinished, "tournament": TournamentUnfinished}
 
 
 def record_lines(connection: Connection, row: GameRow) -> list[str]:

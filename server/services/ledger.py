@@ -28,6 +28,7 @@ def read(context: Context, game_id: str) -> ClockLedger:
         lag_turn_seconds=live.match.lag_turn / SECOND_NS,
         lag_game_seconds=live.match.lag_game / SECOND_NS,
         grace_seconds=settings.fetch_grace,
+        grace_game_seconds=settings.fetch_grace_game,
         no_show_seconds=settings.no_show_seconds,
         clocks=live.clock_views(now),
         players=(_seat(live, 0), _seat(live, 1)),
@@ -39,6 +40,7 @@ def _seat(live: LiveGame, seat: int) -> SeatLedger:
     return SeatLedger(
         charged_ns=live.clocks.used_ns[seat],
         lag_ns=live.granted[seat],
+        grace_ns=live.graces[seat],
         simulated=(live.row.simulated_0, live.row.simulated_1)[seat],
     )
 
@@ -50,7 +52,8 @@ def _charges(rows: Sequence[Row[Any]]) -> tuple[ChargeView, ...]:
             move=row.move,
             measured_ns=row.measured,
             lag_ns=row.lag,
-            charged_ns=row.measured - row.lag,
+            grace_ns=row.grace,
+            charged_ns=row.measured - row.lag - row.grace,
             at=date_time(row.created_at),
         )
         for row in rows

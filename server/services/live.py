@@ -15,6 +15,7 @@ from referee.wire import BudgetView, ClockView, GameTerms, NoiseView, StrokeView
 from server.errors import Forbidden, NotFound
 from server.security.callers import Caller
 from server.services import draws
+from server.services.secrecy import Holder, withheld
 from server.store import locks
 from server.store.rows import GameRow
 from server.store.tables import agents, games, matches, moves
@@ -32,11 +33,13 @@ class Fixture:
         match: of `matches`.
         players: the agents' names, by seat.
         score: of the match, by seat.
+        withheld: until whose end its noise is kept back.
     """
 
     match: Row[Any]
     players: tuple[str, str]
     score: tuple[float, float]
+    withheld: Holder | None
 
     @cached_property
     def rules(self) -> EightBall:
@@ -109,6 +112,11 @@ class LiveGame:
         return self.row.lag_0, self.row.lag_1
 
     @property
+    def graces(self) -> tuple[int, int]:
+        """What was given back so far in this game for turns fetched late, ns by seat."""
+        return self.row.grace_0, self.row.grace_1
+
+    @property
     def is_present(self) -> tuple[bool, bool]:
         """Whether each player ever fetched a turn of this game or played one."""
         return self.row.present_0, self.row.present_1
@@ -123,27 +131,33 @@ class LiveGame:
         """Nanoseconds that the running turn's clock has run since it started, or since the server did."""
         return max(0, now - self.row.clock_from) if self.is_running else 0
 
+    def grace_until(self, now: int) -> int:
+        """What was given back of the running turn until then, for the wait until it was fetched."""
+        waited = max(0, min(now, self.row.clock_from) - self.row.available_at)
+        return self.row.carried_grace + waited if self.is_running else 0
+
     def charge_until(self, now: int) -> Charge:
         """What the running turn costs if it ends now."""
         carried = self.row.carried if self.is_running else 0
-        return self._charge(carried + self.running_for(now))
+        return self._charge(carried + self.running_for(now), self.grace_until(now))
 
     def charge_of_action(self, arrived: int) -> Charge:
         """What the running turn costs if the action that ends it was complete at `arrived`.
 
-        A turn that was never fetched counts from the moment it was there to be fetched: whoever acts knows the view
-        from elsewhere, and the wait for the fetch is not free time to think.
+        Nothing is given back of a turn that was never fetched: whoever acts knows the view from elsewhere, and did not
+        wait for the fetch.
         """
-        start = self.row.clock_from if self.row.delivered else self.row.available_at
-        return self._charge(self.row.carried + max(0, arrived - start))
+        if self.row.delivered:
+            return self.charge_until(arrived)
+        return self._charge(self.row.carried + max(0, arrived - self.row.available_at), self.row.carried_grace)
 
     def is_out_of_time(self, arrived: int) -> bool:
         """Whether an action complete at `arrived` is too late; exactly zero left is."""
         turn = self.game.turn
         return self.clocks.charged(turn, self.charge_of_action(arrived).charged_ns).is_out_of_time(turn)
 
-    def _charge(self, measured: int) -> Charge:
-        return self.fixture.lag.charge(measured, self.granted[self.game.turn])
+    def _charge(self, ran: int, grace: int) -> Charge:
+        return self.fixture.lag.charge(ran + grace, self.granted[self.game.turn], grace)
 
     def clock_views(self, now: int) -> tuple[ClockView, ClockView]:
         """Both clocks as they stand now."""
@@ -172,7 +186,7 @@ class LiveGame:
             players=self.fixture.players,
             rules=self.match.rules,
             table=self.match.table,
-            noise=noise_view(self.match),
+            noise=noise_view(self.match, self.fixture.withheld),
             budget=budget_view(self.match),
             dry_visits_limit=limits.dry_visits,
             replays_limit=limits.replays,
@@ -225,7 +239,8 @@ def read(connection: Connection, row: GameRow) -> LiveGame:
     """The game whose row this is."""
     match = connection.execute(_MATCH, {"id": row.match_id}).one()
     score = score_of(connection, match.id) if row.number else (0.0, 0.0)
-    return LiveGame(row, Fixture(match, (match.name_0, match.name_1), score), Game.from_dict(row.state))
+    fixture = Fixture(match, (match.name_0, match.name_1), score, withheld(connection, match))
+    return LiveGame(row, fixture, Game.from_dict(row.state))
 
 
 def hold(connection: Connection, game_id: str) -> LiveGame:
@@ -282,10 +297,9 @@ _SINCE_LAST: Final = _strokes_since(_LAST)
 _SINCE_OWN: Final = _strokes_since(_LAST.where(moves.c.seat == bindparam("seat")))
 
 
-def noise_view(match: Row[Any]) -> NoiseView:
-    """What everybody may know of a match's noise: the level is a secret until the end unless it is told."""
-    told = match.noise_told or match.status in (FINISHED, ABORTED)
-    return NoiseView(told=match.noise_told, level=match.noise_level if told else None)
+def noise_view(match: Row[Any], until: Holder | None) -> NoiseView:
+    """What everybody may know of a match's noise: no level while it is `withheld`."""
+    return NoiseView(told=match.noise_told, level=match.noise_level if until is None else None)
 
 
 def budget_view(match: Row[Any]) -> BudgetView | None:

@@ -9,6 +9,7 @@ from referee.play.clock import SECOND_NS
 from referee.wire import ClockTerms, GameSummary, MatchView, OutcomeView, Position, RackView
 from server.services.live import RUNNING, noise_view, player_names, score_of
 from server.services.notices import winner_of
+from server.services.secrecy import Holder, withheld
 from server.services.time import date_time
 from server.store.rows import GameRow
 from server.store.tables import games
@@ -24,6 +25,7 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
     """A match with its games."""
     score = score_of(connection, match.id)
     played = connection.execute(_SUMMED.where(games.c.match_id == match.id))
+    until = withheld(connection, match)
     return MatchView(
         id=match.id,
         status=match.status,
@@ -32,7 +34,7 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
         games=match.games,
         rules=match.rules,
         table=match.table,
-        noise=noise_view(match),
+        noise=noise_view(match, until),
         clock=ClockTerms(seconds=match.allowance / SECOND_NS, simulations=match.simulations),
         challenger=None if match.challenger is None else int(match.challenger == match.seat_1),
         commitment=match.commitment,
@@ -42,15 +44,16 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
         first_breaker=match.first_breaker,
         score=score,
         winner=winner_of(match.status, score),
-        played=tuple(GameSummary(**summary(row)) for row in played),
+        played=tuple(GameSummary(**summary(row, until)) for row in played),
         start=None if match.start is None else Position.model_validate(match.start),
         rated=match.rated,
+        foreseeable=match.foreseeable,
         created_at=date_time(match.created_at),
     )
 
 
-def summary(row: GameRow | Row[Any]) -> dict[str, Any]:
-    """The fields of a `GameSummary`; the noise seed is there once the game is over."""
+def summary(row: GameRow | Row[Any], until: Holder | None) -> dict[str, Any]:
+    """The fields of a `GameSummary`; the noise seed is there once the game is over, unless noise is `withheld`."""
     outcome = row.state["outcome"]
     return {
         "id": row.id,
@@ -59,7 +62,7 @@ def summary(row: GameRow | Row[Any]) -> dict[str, Any]:
         "status": row.status,
         "breaker": row.breaker,
         "commitment": row.commitment,
-        "noise_seed": None if row.status == RUNNING else row.noise_seed,
+        "noise_seed": None if row.status == RUNNING or until is not None else row.noise_seed,
         "strokes": row.state["stroke"],
         "outcome": None if outcome is None else OutcomeView.of(Outcome.from_dict(outcome)),
         "started_at": date_time(row.started_at),

@@ -116,7 +116,7 @@ def _created(writing: Writing, command: Command) -> Answer:
     challenger = None if command.caller.is_organiser else command.caller.id
     house.require_terms(writing, request, challenger)
     house.require_no_other(writing, request, challenger)
-    match = insert_match(writing, request, challenger)
+    match = insert_match(writing, request, challenger, foreseeable=request.seed is not None)
     if match.challenger is None or house.has_place(writing, match):
         match = begin_or_wait(writing, match)
     return Answer.of(201, match_views.view(writing.connection, match), location=f"/v1/matches/{match.id}")
@@ -153,8 +153,13 @@ def _require_start(request: MatchRequest) -> None:
         raise invalid_field(f"start.{error.field}", error.value, error.allowed) from error
 
 
-def insert_match(writing: Writing, request: MatchRequest, challenger: str | None) -> Row[Any]:
-    """Store a match that an organiser made, or a challenge; nothing has begun."""
+def insert_match(
+    writing: Writing, request: MatchRequest, challenger: str | None, *, foreseeable: bool = False
+) -> Row[Any]:
+    """Store a match that an organiser made, or a challenge; nothing has begun.
+
+    Whoever chose its seed knows its noise in advance: `foreseeable`, it counts for no rating.
+    """
     match_id = f"match_{secrets.token_hex(8)}"
     row = {
         "id": match_id,
@@ -172,11 +177,17 @@ def insert_match(writing: Writing, request: MatchRequest, challenger: str | None
         "lag_turn": nanoseconds(writing.context.settings.lag_turn),
         "lag_game": nanoseconds(writing.context.settings.lag_game),
         "start": None if request.start is None else request.start.model_dump(mode="json"),
-        "rated": request.rated and request.start is None and not house.is_challenged(writing, request, challenger),
+        "rated": _counts(request) and not foreseeable and not house.is_challenged(writing, request, challenger),
+        "foreseeable": foreseeable,
         "created_at": writing.now,
     }
     writing.connection.execute(insert(matches).values(row | draws.columns(request, match_id)))
     return find_match(writing.connection, match_id)
+
+
+def _counts(request: MatchRequest) -> bool:
+    """Whether such a match is to count for ratings."""
+    return request.rated and request.start is None
 
 
 def _accepted(writing: Writing, match: Row[Any], command: Command) -> Answer:

@@ -74,7 +74,9 @@ def opening(context: Context, game_id: str, after: int | None) -> tuple[list[New
         live = find(connection, game_id)
         told = [] if after is None else list(_strokes(connection, game_id, after))
         standing = _standing(context, connection, live)
-        first = GameAnswer(**summary(live.row), view=live.view(connection, None, context.time.now()))
+        first = GameAnswer(
+            **summary(live.row, live.fixture.withheld), view=live.view(connection, None, context.time.now())
+        )
         news = [News(game_id, "game", first.model_dump_json()), *told, *_rest(context, connection, live, standing)]
     return news, standing
 
@@ -122,7 +124,7 @@ def _rest(
 
 def _result(connection: Connection, live: LiveGame) -> StreamResult:
     """The score is that of the match with this game: a view has the score it is played at."""
-    summed = summary(live.row)
+    summed = summary(live.row, live.fixture.withheld)
     kept = {name: summed[name] for name in ("status", "outcome", "noise_seed")}
     return StreamResult(**kept, score=score_of(connection, live.match.id), record=f"/v1/games/{live.id}/record")
 

@@ -13,7 +13,7 @@ from server.store.tables import notices
 
 
 def game_over(connection: Connection, live: LiveGame, now: int) -> None:
-    """Tell both players, each with the own view and the revealed seed."""
+    """Tell both players, each with the own view and, unless noise is withheld, the revealed seed."""
     outcome = live.game.outcome
     assert outcome is not None
     for seat in (0, 1):
@@ -25,7 +25,7 @@ def game_over(connection: Connection, live: LiveGame, now: int) -> None:
             outcome=OutcomeView.of(outcome),
             won=None if outcome.winner is None else outcome.winner == seat,
             score=live.fixture.score,
-            noise_seed=live.row.noise_seed,
+            noise_seed=None if live.fixture.withheld else live.row.noise_seed,
             record=f"/v1/games/{live.id}/record",
             view=live.view(connection, seat, now),
         )

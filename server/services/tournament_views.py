@@ -23,6 +23,7 @@ from referee.wire import (
 from server.services import events
 from server.services.context import Context
 from server.services.courses import Course
+from server.services.secrecy import is_event_over
 from server.services.time import date_time
 from server.store.tables import tournament_games
 from tournament import GameResult, Pair
@@ -40,20 +41,21 @@ def view(context: Context, connection: Connection, row: Row[Any]) -> TournamentV
 def view_of(connection: Connection, row: Row[Any], course: Course) -> TournamentView:
     """The same when it is known how the event stands."""
     ledger = course.ledger
-    spec, over = ledger.event.spec, row.status not in events.OPEN
+    spec, over = ledger.event.spec, is_event_over(connection, row)
     return TournamentView(
         **_summary(row),
         terms=spec.revealed() if over else spec.published(),
         agents=row.agents,
-        played=tuple(_games(connection, row, ledger)),
+        played=tuple(_games(connection, row, ledger, spec.noise.told or over)),
         log=tuple(_entry(each) for each in events.decisions(connection, row.id)),
     )
 
 
-def entries_page(rows: Sequence[Row[Any]], limit: int) -> EntriesPage:
+def entries_page(rows: Sequence[Row[Any]], limit: int, lots: str | None) -> EntriesPage:
     """Entries as a page; one more than the page holds says that there are more."""
     given = tuple(NumberedEntry(number=each.sequence, **_noted(each)) for each in rows[:limit])
-    return EntriesPage(entries=given, next_cursor=str(given[-1].number) if len(rows) > limit else None)
+    more = str(given[-1].number) if len(rows) > limit else None
+    return EntriesPage(entries=given, next_cursor=more, lots=lots)
 
 
 def summary(row: Row[Any]) -> TournamentSummary:
@@ -62,14 +64,15 @@ def summary(row: Row[Any]) -> TournamentSummary:
 
 
 def standings_view(context: Context, connection: Connection, row: Row[Any]) -> StandingsView:
-    """How the entrants stand."""
+    """How the entrants stand; nobody is rated where the dice could be foreseen."""
     course = events.course(context, connection, row)
     test = course.ledger.event.test
+    ratings = () if course.ledger.event.spec.foreseeable else course.ratings
     return StandingsView(
         tournament=row.id,
         status=row.status,
         standings=tuple(StandingView(**line.to_dict(), agent=row.agents[line.name]) for line in course.standings),
-        ratings=tuple(RatingView(**rating.to_dict()) for rating in course.ratings),
+        ratings=tuple(RatingView(**rating.to_dict()) for rating in ratings),
         test=None if test is None else SequentialTestView(**asdict(test)),
     )
 
@@ -80,6 +83,7 @@ def _summary(row: Row[Any]) -> dict[str, Any]:
         "name": row.name,
         "status": row.status,
         "format": row.terms["format"],
+        "foreseeable": row.terms.get("lots") is None,
         "entrants": tuple(entrant["name"] for entrant in row.terms["entrants"]),
         "games": row.games,
         "due": row.due,
@@ -97,14 +101,13 @@ def _noted(entry: Row[Any]) -> dict[str, Any]:
     return {"at": date_time(entry.created_at), "kind": entry.kind, "by": entry.by, "fields": entry.fields}
 
 
-def _games(connection: Connection, row: Row[Any], ledger: Ledger) -> list[TournamentGame]:
+def _games(connection: Connection, row: Row[Any], ledger: Ledger, told: bool) -> list[TournamentGame]:
     """Every game that was begun or forfeit, in the order of pairs."""
     ours = select(tournament_games).where(tournament_games.c.tournament_id == row.id)
     made: dict[Key, str] = {(one.pair, one.leg, one.attempt): one.match_id for one in connection.execute(ours)}
     results: dict[Key, GameResult] = {(one.pair, one.leg, one.attempt): one for one in ledger.event.results}
     pairs = {pair.id: pair for pair in ledger.event.plan.pairs}
     known = [key for key in made.keys() | results.keys() if key[0] in pairs]
-    told = ledger.event.spec.noise.told or row.status not in events.OPEN
     return [
         _game(pairs[key[0]], key, made.get(key), results.get(key), told)
         for key in sorted(known, key=lambda key: (pairs[key[0]].number, *key[1:]))

@@ -88,7 +88,8 @@ def entries(context: Context, tournament_id: str, caller: Caller, after: int, li
     caller.require_organiser()
     with context.database.reading() as connection:
         row = events.find(connection, tournament_id)
-        return tournament_views.entries_page(events.entries_after(connection, row.id, after, limit + 1), limit)
+        found = events.entries_after(connection, row.id, after, limit + 1)
+        return tournament_views.entries_page(found, limit, row.terms.get("lots"))
 
 
 def listing(
@@ -128,8 +129,12 @@ def _created(writing: Writing, command: Command) -> Answer:
 
 
 def _spec(request: TournamentRequest) -> Spec:
-    """The terms, with a secret seed unless one was given."""
-    terms = {"seed": secrets.token_hex(SECRET_BYTES)} | request.terms
+    """The terms, with secrets drawn here unless a seed was chosen."""
+    terms = dict(request.terms)
+    if terms.get("lots") is not None:
+        raise invalid_field("terms.lots", "<secret>", "nothing: the server draws them")
+    if terms.get("seed") is None:
+        terms |= {name: secrets.token_hex(SECRET_BYTES) for name in ("seed", "lots")}
     try:
         spec = Spec.from_dict(terms)
     except TournamentError as error:

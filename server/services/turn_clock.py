@@ -17,14 +17,16 @@ class TurnClock:
 
     Attributes:
         remaining: on the player's clock.
-        lag: given back for it at most.
-        carried: of it gone before the server stopped.
+        lag: given back for the way at most. grace: given back for the wait until it is fetched at most.
+        carried: of it charged before the server stopped; carried_grace: given back then.
         present: whether the player was ever there in this game.
     """
 
     remaining: int
     lag: int
+    grace: int = 0
     carried: int = 0
+    carried_grace: int = 0
     present: bool = True
 
     def runs_out(self, clock_from: int) -> int:
@@ -32,9 +34,10 @@ class TurnClock:
         return clock_from + self.remaining + self.lag - self.carried
 
 
-def first_turn(match: Row[Any]) -> TurnClock:
+def first_turn(writing: Writing, match: Row[Any]) -> TurnClock:
     """The first turn of a game."""
-    return TurnClock(match.allowance, LagAllowance(match.lag_turn, match.lag_game).left_ns(0), present=False)
+    lag = LagAllowance(match.lag_turn, match.lag_game)
+    return TurnClock(match.allowance, lag.left_ns(0), writing.context.grace.left_ns(0), present=False)
 
 
 def running_turn(live: LiveGame) -> TurnClock:
@@ -44,19 +47,29 @@ def running_turn(live: LiveGame) -> TurnClock:
         remaining=live.clocks.remaining_ns(seat),
         lag=live.fixture.lag.left_ns(live.granted[seat]),
         carried=live.row.carried,
+        carried_grace=live.row.carried_grace,
         present=live.is_present[seat],
     )
 
 
-def carried_on(live: LiveGame, ran: int) -> TurnClock:
-    """The turn that a game waits for, of which so much more is gone."""
-    clock = running_turn(live)
-    return replace(clock, carried=clock.carried + ran)
+def carried_on(writing: Writing, live: LiveGame, until: int) -> TurnClock:
+    """The turn that a game waits for, which stood still since then; what is left of its grace may be used later."""
+    given = live.grace_until(until)
+    granted, whole = live.graces[live.game.turn], writing.context.grace
+    return replace(
+        running_turn(live),
+        carried=live.row.carried + live.running_for(until),
+        carried_grace=given,
+        grace=max(0, min(whole.turn_ns - given, whole.game_ns - granted - given)),
+    )
 
 
 def available(writing: Writing, clock: TurnClock) -> dict[str, Any]:
-    """The columns of a turn that waits to be fetched: its clock starts by itself after the grace."""
-    clock_from = writing.now + writing.context.fetch_grace
+    """The columns of a turn that waits to be fetched: it is charged from now on but for the grace.
+
+    Not from the fetch: a table is read without a token, and whoever has read it thinks.
+    """
+    clock_from = writing.now + clock.grace
     deadline = clock.runs_out(clock_from)
     if not clock.present:
         deadline = min(deadline, writing.now + writing.context.no_show_after)
@@ -66,6 +79,7 @@ def available(writing: Writing, clock: TurnClock) -> dict[str, Any]:
         "clock_from": clock_from,
         "deadline": deadline,
         "carried": clock.carried,
+        "carried_grace": clock.carried_grace,
     }
 
 
@@ -77,6 +91,7 @@ def delivered(clock: TurnClock, available_at: int, clock_from: int) -> dict[str,
         "clock_from": clock_from,
         "deadline": clock.runs_out(clock_from),
         "carried": clock.carried,
+        "carried_grace": clock.carried_grace,
     }
 
 

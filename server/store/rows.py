@@ -27,11 +27,14 @@ class GameRow:
     used_1: int
     lag_0: int
     lag_1: int
+    grace_0: int
+    grace_1: int
     simulated_0: int
     simulated_1: int
     present_0: bool
     present_1: bool
     carried: int
+    carried_grace: int
     delivered: bool
     available_at: int
     clock_from: int

@@ -99,6 +99,7 @@ matches = Table(
     Column("seed", String(64), nullable=False),
     Column("start", JSON(none_as_null=True)),
     Column("rated", Boolean, nullable=False),
+    Column("foreseeable", Boolean, nullable=False),
     Column("rack_seed", String(64)),
     Column("paired_racks", Boolean, nullable=False),
     Column("given_breaker", Integer),
@@ -113,7 +114,8 @@ matches = Table(
     Column("started_at", BigInteger),
     Column("ended_at", BigInteger),
 )
-"""`seed`, `rack_seed` (null: the same): the secrets. `engine`: the digest of what the match is committed to.
+"""`seed`, `rack_seed` (null: the same): the secrets; `foreseeable`: `seed` was not drawn here, or follows from one that
+was not. `engine`: the digest of what the match is committed to.
 `opening`: how long the players may add seeds; `opens_until`: when the first game begins whoever has not, null
 unless the match waits for that. `first_breaker`: known when the first game begins."""
 
@@ -137,11 +139,14 @@ games = Table(
     Column("used_1", BigInteger, nullable=False),
     Column("lag_0", BigInteger, nullable=False),
     Column("lag_1", BigInteger, nullable=False),
+    Column("grace_0", BigInteger, nullable=False),
+    Column("grace_1", BigInteger, nullable=False),
     Column("simulated_0", BigInteger, nullable=False),
     Column("simulated_1", BigInteger, nullable=False),
     Column("present_0", Boolean, nullable=False),
     Column("present_1", Boolean, nullable=False),
     Column("carried", BigInteger, nullable=False),
+    Column("carried_grace", BigInteger, nullable=False),
     Column("delivered", Boolean, nullable=False),
     Column("available_at", BigInteger, nullable=False),
     Column("clock_from", BigInteger, nullable=False),
@@ -154,9 +159,10 @@ games = Table(
     Column("head", String(64), nullable=False),
     UniqueConstraint("match_id", "number"),
 )
-"""`mover`: whose turn it is, null when the game is over. `clock_from`: when the turn's clock starts or
-started; `deadline`: when the turn is over unplayed, null when the game is over. `used`: charged for turns that are
-over, `lag`: given back for them, by seat. `carried`: what the running turn took before the server stopped.
+"""`mover`: whose turn it is, null when the game is over. `available_at`: since when it could be fetched; `clock_from`:
+since when it is charged, which is later by the grace or until it was fetched; `deadline`: when the turn is over
+unplayed, null when the game is over. `used`: charged for turns that are over, `lag` and `grace`: given back for them,
+by seat. `carried`: what the running turn was charged before the server stopped, `carried_grace`: given back then.
 `simulated`: shots simulated or declared, by seat. `present`: whether the player ever fetched a turn of this game or
 played one. `header`, `ending` and `seal`: the first line and the last two of the record; `head`: the digest of its
 last line so far."""
@@ -170,10 +176,11 @@ charges = Table(
     Column("move", Integer),
     Column("measured", BigInteger, nullable=False),
     Column("lag", BigInteger, nullable=False),
+    Column("grace", BigInteger, nullable=False),
     Column("created_at", BigInteger, nullable=False),
 )
 """The ledger of a game's clocks: a row for every turn that is over, `move` null where no move ended it. `measured` less
-`lag` was charged."""
+`lag` and `grace` was charged."""
 
 heartbeats = Table(
     "heartbeats",

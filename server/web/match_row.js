@@ -10,7 +10,7 @@ export function matchRow(match) {
     el("a", { href: `#/matches/${match.id}` }, `${first} – ${second}`),
     el("span", { class: "score" }, `${match.score[0]} : ${match.score[1]}`),
     facts(stateMark(match.status), match.games === 1 ? "1 game" : `${match.games} games`, !match.rated && unratedMark(),
-      ago(match.created_at)));
+      match.foreseeable && foreseeableMark(), ago(match.created_at)));
 }
 
 /** How something stands: running, finished, … @param {string} status */
@@ -21,6 +21,12 @@ export function stateMark(status) {
 /** Says of a match or game that it counts for no rating. */
 export function unratedMark() {
   return el("span", { class: "mark", title: "It counts for no rating." }, "unrated");
+}
+
+/** Says of a match or tournament that somebody chose its seed. */
+export function foreseeableMark() {
+  const title = "Its seed was chosen: racks and noise can be known in advance. It counts for no rating.";
+  return el("span", { class: "mark", title }, "foreseeable");
 }
 
 /** @param {Record<string, any>} match @param {Record<string, any>} game */

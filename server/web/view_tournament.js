@@ -2,7 +2,7 @@
 
 import { get } from "./api.js";
 import { ago, el, facts, fill } from "./dom.js";
-import { stateMark } from "./match_row.js";
+import { foreseeableMark, stateMark } from "./match_row.js";
 import { ratingPlot } from "./rating_plot.js";
 import { describeOutcome } from "./words.js";
 
@@ -16,7 +16,7 @@ export function tournamentRow(event) {
   return el("article", { class: "match" },
     el("a", { href: `#/tournaments/${event.id}` }, event.name),
     facts(stateMark(event.status), event.format.replaceAll("_", " "), `${event.entrants.length} entrants`, `${event.games} games`,
-      ago(event.created_at)));
+      event.foreseeable && foreseeableMark(), ago(event.created_at)));
 }
 
 export class TournamentView {
@@ -46,7 +46,8 @@ export class TournamentView {
   show(event, standings, test, ratings) {
     if (this.closed) return;
     fill(this.element, el("header", { class: "heading" }, el("h1", {}, event.name),
-      facts(stateMark(event.status), event.format.replaceAll("_", " "), `${event.games} games played`, `${event.due} to come`)),
+      facts(stateMark(event.status), event.format.replaceAll("_", " "), `${event.games} games played`, `${event.due} to come`,
+        event.foreseeable && foreseeableMark())),
       test && el("p", {}, `Sequential test: ${test.verdict}, log-likelihood ratio ${test.llr.toFixed(2)} in (${test.bounds.map((bound) => bound.toFixed(2)).join(", ")}) after ${test.pairs} pairs`),
       el("div", { class: "halves" }, standingsTable(standings), ratings.length > 1 && el("figure", { class: "panel" }, ratingPlot(ratings),
         el("figcaption", {}, "Ratings above the mean in Elo points (Bradley and Terry), with intervals of 95 % confidence"))),

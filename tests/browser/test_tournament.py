@@ -7,7 +7,7 @@ from support.play_along import Match, next_turn
 
 def test_a_tournament_is_followed_from_the_lobby_to_a_game(page, server):
     players = {name: server.register(f"cup {name}") for name in ("ann", "bob", "cat")}
-    terms = {"name": "Cup <b>of</b> names", "entrants": list(players), "pairs": 1, "seed": 5}
+    terms = {"name": "Cup <b>of</b> names", "entrants": list(players), "pairs": 1}
     agents = {name: made["agent"]["id"] for name, made in players.items()}
     made = server.send("POST", "/v1/tournaments", json={"terms": terms, "agents": agents})
     assert made.status_code == 201, made.text
@@ -25,6 +25,7 @@ def test_a_tournament_is_followed_from_the_lobby_to_a_game(page, server):
     assert [one["games"] for one in standings["ratings"]] == [4, 4, 4]
     label = page.get_by_role("img", name="Ratings in Elo points").get_attribute("aria-label")
     assert all(f"{one['name']} {round(one['elo'])}" in label for one in standings["ratings"])
+    assert page.locator(".mark").count() == 0
     page.get_by_role("link", name="–").first.click()
     page.get_by_role("link", name="Game 1").click()
     page.locator(".result", has_text="wins: concession").wait_for()
@@ -50,12 +51,38 @@ def test_a_tournament_that_is_looked_at_goes_on_before_the_eyes(page, own_server
     page.locator(".heading .state", has_text="finished").wait_for()
 
 
+def test_an_event_and_its_matches_with_a_chosen_seed_are_marked(page, server):
+    """Whoever chose it knows the dice: said in the lobby, on its page and on its matches, and nobody is rated."""
+    players = {name: server.register(f"foreseen {name}") for name in ("ann", "bob")}
+    agents = {name: made["agent"]["id"] for name, made in players.items()}
+    terms = {"name": "Foreseen", "entrants": list(players), "pairs": 1, "seed": 5}
+    event = server.send("POST", "/v1/tournaments", json={"terms": terms, "agents": agents}).json()["id"]
+    assert server.send("POST", f"/v1/tournaments/{event}/start").status_code == 200
+    while running := [one for one in read(server, event)["played"] if one["status"] == "running"]:
+        concede(server, running[0], players)
+    page.goto(server.url)
+    row = page.get_by_role("listitem").filter(has=page.get_by_role("link", name="Foreseen", exact=True))
+    row.locator(".mark", has_text="foreseeable").wait_for()
+    page.get_by_role("link", name="Foreseen", exact=True).click()
+    page.locator(".heading .mark", has_text="foreseeable").wait_for()
+    page.get_by_role("table", name="Standings").wait_for()
+    assert page.get_by_role("img", name="Ratings in Elo points").count() == 0
+    page.get_by_role("link", name="–").first.click()
+    page.locator(".heading .mark", has_text="foreseeable").wait_for()
+    page.locator(".heading .mark", has_text="unrated").wait_for()
+
+
 def read(server, event: str) -> dict:
     return dict(server.http.get(f"/v1/tournaments/{event}").json())
 
 
 def concede(server, game: dict, players: dict) -> None:
     view = server.http.get(f"/v1/matches/{game['match']}").json()
+    if view["status"] == "opening":
+        for name in game["players"]:
+            path, token = f"/v1/matches/{game['match']}/seed", players[name]["token"]
+            assert server.send("POST", path, token, json={"seed": "5f" * 32}).status_code == 200
+        view = server.http.get(f"/v1/matches/{game['match']}").json()
     match = Match(server, view, [players[name]["token"] for name in game["players"]])
     seat, turn = next_turn(match)
     headers = {"If-Match": f'"{turn.version}"'}

@@ -75,7 +75,7 @@ def test_a_link_leads_to_a_stroke(page, server):
 
 
 def test_the_lobby_shows_what_is_played_and_leads_there(page, server):
-    match = server.match(names=("lobby ann", "lobby bob"))
+    match = server.match(names=("lobby ann", "lobby bob"), seed=None)
     page.goto(server.url)
     small = page.locator("a.thumbnail", has_text="lobby ann – lobby bob")
     small.wait_for()
@@ -184,7 +184,7 @@ def test_the_search_finds_what_no_page_has_shown_yet(page, server):
 def test_unrated_games_are_marked_wherever_they_are_shown(page, server):
     """With a break or from a position; what counts is not marked, and head to head counts nothing else."""
     for rated in (True, False):
-        match = server.match(rated=rated, names=(f"rated {rated} ann", f"rated {rated} bob"))
+        match = server.match(rated=rated, seed=None, names=(f"rated {rated} ann", f"rated {rated} bob"))
         concede(match)
         for address in (f"matches/{match.id}", f"games/{match.game}"):
             page.goto(f"{server.url}/#/{address}")

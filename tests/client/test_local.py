@@ -6,6 +6,9 @@ import pytest
 
 import client
 import physics
+from client.local import over_message
+from referee import EightBall, MatchSeed, NoiseModel
+from referee.play.local import play_game
 from referee.record import verify_record
 
 CONCEDE = client.Action(decision="concede")
@@ -87,6 +90,22 @@ def test_a_local_record_verifies(tmp_path):
     record = tmp_path / "game.jsonl"
     record.write_text("\n".join(client.play("random", "random", seed=5).games[0].record()) + "\n")
     assert verify_record(record).ok
+
+
+@pytest.mark.parametrize("told", [True, False])
+def test_the_seed_of_noise_that_is_not_told_is_in_no_message(told):
+    """It was, so that an entrant of an event knew the level of every game after its first."""
+    seen = []
+
+    def concede(view):
+        seen.append(view)
+        return client.Action(decision="concede")
+
+    rules, noise = EightBall(physics.Table.olympiad()), NoiseModel(2.0, told)
+    game = play_game(rules, (concede, concede), MatchSeed.of(3).game(0), noise)
+    message = over_message(game, 0, seen[-1], (0.0, 1.0))
+    assert message.noise_seed == (game.seeds.noise_seed.hex() if told else None)
+    assert message.view.noise.level == (2.0 if told else None)
 
 
 def test_noise_and_table_are_those_asked_for():

@@ -26,6 +26,7 @@ DATABASES = {
     "test_exactly_once": BOTH,
     "test_long_poll": BOTH,
     "test_matches": BOTH,
+    "test_migrations": BOTH,
     "test_order_of_checks": BOTH,
     "test_tournaments": BOTH,
     "test_whole_match": BOTH,

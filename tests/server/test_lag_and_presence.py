@@ -1,6 +1,7 @@
 """docs/protocol.md, clocks: the lag given back and its ledger, who never shows up, time in which no server ran."""
 
 import json
+import random
 
 import pytest
 from support.server_time import SECOND, Stage
@@ -72,6 +73,50 @@ def test_a_turn_with_lag_given_back_times_out_when_exactly_zero_is_left(stage):
     assert (row.move, row.charged_ns, row.lag_ns) == (None, 10 * SECOND, SECOND // 2)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_the_ledger_adds_up_however_late_turns_are_fetched_and_whoever_stops_the_server(stage, script, seed):
+    """Measured is what passed while a server ran; of it a second a turn and five a game are given back."""
+    chance, now = random.Random(seed), stage(lag_turn=0.25, lag_game=1.0)
+    heartbeat.begin(now.context, "first", alone=True)
+    seats, passed = now.game("ann", "bob", clock={"seconds": 1_000.0}, seed=f"{seed:064x}"), []
+    while len(passed) < 24 and (turn := now.waiting(seats)) is not None:
+        passed.append(0)
+        waited = chance.choice((0.0, 0.5, 0.999, 1.0, 3.0))
+        for seconds in (waited, chance.uniform(0.0, 2.0)):
+            now.time.pass_(seconds)
+            passed[-1] += round(seconds * SECOND)
+            if chance.random() < 0.3:
+                heartbeat.beat(now.context, "first", stopped=True)
+                now.time.pass_(chance.choice((0.0, 100.0)))
+                heartbeat.begin(now.context, "first", alone=True)
+            view = now.fetched(seats, turn)
+        now.act(seats, view, script(view, chance))
+    book = ledger.read(now.context, seats.id)
+    assert [row.measured_ns for row in book.charges] == passed
+    for seat, player in enumerate(book.players):
+        rows = [row for row in book.charges if row.seat == seat]
+        assert all(row.charged_ns == row.measured_ns - row.lag_ns - row.grace_ns >= 0 for row in rows)
+        assert all(row.grace_ns <= SECOND and row.lag_ns <= SECOND // 4 for row in rows)
+        assert player.grace_ns == sum(row.grace_ns for row in rows) <= 5 * SECOND
+        assert player.lag_ns == sum(row.lag_ns for row in rows) <= SECOND
+        assert player.charged_ns == sum(row.charged_ns for row in rows)
+
+
+def test_fetching_late_gains_five_seconds_a_game_and_no_more(stage, script):
+    """Every turn is fetched two seconds late: the sixth is charged all of it."""
+    chance, now = random.Random(1), stage(lag_turn=0.0)
+    seats, given = now.game("ann", "bob", clock={"seconds": 1_000.0}, seed="5" * 64), ([], [])
+    while min(map(len, given)) < 7 and (turn := now.waiting(seats)) is not None:
+        now.time.pass_(2.0)
+        now.act(seats, view := now.fetched(seats, turn), script(view, chance))
+        row = ledger.read(now.context, seats.id).charges[-1]
+        assert row.charged_ns == row.measured_ns - row.grace_ns
+        given[row.seat].append(row.grace_ns)
+    for graces in given:
+        assert sum(graces) == 5 * SECOND
+        assert set(graces) == {0, SECOND}
+
+
 # never there
 
 
@@ -102,7 +147,7 @@ def test_who_fetched_once_and_then_does_nothing_is_out_of_time(stage):
 def test_a_clock_that_runs_out_before_the_minute_is_a_time_out(stage):
     now = stage(lag_turn=0.0)
     seats = now.game("ann", "bob")
-    now.time.pass_(15.0)  # the grace and the allowance
+    now.time.pass_(11.0)  # the grace and the allowance
     assert outcome_of_other(now, seats) == "time_out"
 
 

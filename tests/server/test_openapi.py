@@ -151,7 +151,7 @@ class Somewhere:
     def event(self, organiser, path):
         """A tournament between ann and bob, as far as the request needs it."""
         players = {name: self.new_player() for name in ("ann", "bob")}
-        terms = {"name": "Cup", "entrants": list(players), "pairs": 1}
+        terms = {"name": "Cup", "entrants": list(players), "pairs": 1, "seed": 5}  # no match waits for seeds
         body = {"terms": terms, "agents": {name: player.id for name, player in players.items()}}
         event = organiser.post("/v1/tournaments", body).json()["id"]
         if path.endswith(("/pause", "/void", "/disqualify")):

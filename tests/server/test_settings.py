@@ -86,7 +86,7 @@ def test_the_command_prints_the_effective_configuration_and_leaves(tmp_path):
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120, check=True)
     assert "body_limit = 77  # file" in done.stdout
     assert "timer_period = 0.5  # environment" in done.stdout
-    assert "fetch_grace = 5.0  # default" in done.stdout
+    assert "fetch_grace = 1.0  # default" in done.stdout
     assert TOKEN not in done.stdout
     assert set(tomllib.loads(done.stdout)) == {field.name for field in settable()} | {SECRET}
 

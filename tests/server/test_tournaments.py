@@ -204,7 +204,7 @@ def test_the_entries_are_everything_that_was_noted_in_its_order(cup):
     assert first == event.read("/entries")["entries"]
     ledger = Ledger(Event(Spec.from_dict(event.terms))).after(Act(each["kind"], each["fields"]) for each in first)
     assert ledger.event.finished
-    assert read(cursor=first[-1]["number"]) == {"entries": [], "next_cursor": None}
+    assert read(cursor=first[-1]["number"]) == {"entries": [], "next_cursor": None, "lots": None}
 
 
 def test_players_do_not_organise(cup):

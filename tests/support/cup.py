@@ -1,7 +1,11 @@
 """A tournament over HTTP whose players do what a test says."""
 
+import hashlib
 from collections.abc import Callable, Sequence
 from typing import Any
+
+SEEDS = {name: hashlib.sha256(name.encode()).hexdigest() for name in ("ann", "bob", "cat", "dan")}
+"""What each player adds to the draw."""
 
 
 class Cup:
@@ -46,12 +50,20 @@ class Cup:
 
     def concede(self, game: dict[str, Any]) -> str:
         """Let whoever is to break a running game concede it."""
+        self.add_seeds(game)
         breaker = self.players[game["players"][game["breaker"]]]
         while (message := breaker.turn())["type"] != "turn" or message["view"]["match"] != game["match"]:
             assert message["type"] != "turn"
         view = message["view"]
         assert breaker.post(f"/v1/games/{view['game']}/concede", version=view["version"]).status_code == 200
         return str(view["game"])
+
+    def add_seeds(self, game: dict[str, Any]) -> None:
+        """Both players add a seed, if the game's match waits for theirs."""
+        if self.organiser.get(f"/v1/matches/{game['match']}").json()["status"] == "opening":
+            for name in game["players"]:
+                answer = self.players[name].post(f"/v1/matches/{game['match']}/seed", {"seed": SEEDS[name]})
+                assert answer.status_code == 200, answer.text
 
     def play_out(self) -> list[str]:
         """Concede until the event is over; the ids of the games."""

@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from referee.wire import AgentRequest
+from server.errors import Refused
 from server.security.callers import ORGANISER, Caller
-from server.services import agents, matches, strokes, turns
+from server.services import agents, history, matches, strokes, turns
 from server.services.commands import Command
 from server.services.context import Context
 from server.services.timer import flag
@@ -72,6 +73,28 @@ class Stage:
         if_match = None if version is None else f'"{version}"'
         who = Caller.organiser("t") if caller == ORGANISER else Caller(caller, "t")
         return Command(who, "/route", key, if_match, "application/json", body, self.time.now())
+
+    def waiting(self, seats: "Seats") -> int | None:
+        """The seat whose turn it is in a game; None when it is over."""
+        answer = json.loads(history.game(self.context, seats.id, None).body)
+        return None if answer["view"]["turn"] is None else int(answer["view"]["turn"])
+
+    def fetched(self, seats: "Seats", seat: int) -> dict[str, Any]:
+        """The turn that a seat fetches."""
+        message = self.news(seats.ids[seat])
+        assert message is not None
+        assert message["type"] == "turn"
+        return dict(message["view"])
+
+    def act(self, seats: "Seats", view: dict[str, Any], action: dict[str, Any]) -> None:
+        """Whoever has this view plays, or concedes where the referee refuses."""
+        key, version = f"a{view['version']}", view["version"]
+        command = self.command(seats.ids[view["seat"]], json.dumps(action).encode(), key, version)
+        act = strokes.decide if "decision" in action else strokes.shoot
+        try:
+            act(self.context, seats.id, lambda _: command)
+        except Refused:
+            strokes.concede(self.context, seats.id, lambda _: command)
 
     def news(self, agent: str) -> dict[str, Any] | None:
         """What the agent is told next, after the timer has looked."""

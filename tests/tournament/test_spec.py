@@ -6,7 +6,7 @@ import math
 import pytest
 from support.events import spec_of
 
-from tournament import PRESETS, Entrant, InvalidSpec, NoisePlan, Spec, SprtTerms
+from tournament import PRESETS, Entrant, Event, InvalidSpec, NoisePlan, Spec, SprtTerms, game_seeds
 
 WHOLE = {"name": "Winter open", "entrants": ["greedy", {"name": "b", "agent": "python b.py"}]}
 
@@ -19,6 +19,8 @@ WHOLE = {"name": "Winter open", "entrants": ["greedy", {"name": "b", "agent": "p
         {"format": "knockout", "drawn": "lot", "seeding": "drawn", "extra_pairs": 0, "seconds": None},
         {"sprt": {"elo0": -5.0, "elo1": 5.0}, "seed": "ab" * 32, "simulated_shots": 1000},
         {"noise": 2.5, "tie_breaks": ["wins", "seed"], "table": "fastfiz"},
+        {"lots": "ab" * 32},
+        {"lots": "ab" * 32, "seed": "cd" * 32},
     ],
 )
 def test_terms_survive_json(terms):
@@ -46,6 +48,11 @@ def test_terms_survive_json(terms):
         ({"noise": {"level": 1}}, "noise = ['level']: only the keys"),
         ({"seed": "secret"}, "seed = '<6 letters>': 64 lower-case"),
         ({"seed": -1}, "seed = -1"),
+        ({"lots": "secret"}, "lots = '<6 letters>': 64 lower-case"),
+        ({"lots": 5}, "lots = 'int': 64 lower-case"),
+        ({"seed": 5, "lots": "ab" * 32}, "lots = '<64 letters>': nothing"),
+        ({"seed": 5, "foreseeable": False}, "foreseeable = False: true"),
+        ({"foreseeable": 1}, "foreseeable = 1"),
         ({"table": "snooker"}, "table = 'snooker': olympiad, fastfiz"),
         ({"table": {"width": -1}}, "table."),
         ({"entrants": ["a", "a"]}, "entrants = 'a': names that are all different"),
@@ -88,8 +95,34 @@ def test_what_is_given_overrides_the_preset():
     assert (spec.seconds, spec.noise.levels) == (60.0, (5.0,))
 
 
+def test_an_event_without_a_seed_repeats_where_no_server_draws_one():
+    spec = Spec.from_dict(WHOLE | {"seeding": "drawn", "noise": {"range": [0.0, 5.0]}})
+    (pair,) = Event(spec).pairs
+    assert spec.foreseeable
+    assert Event(spec.with_seed(0)).pairs == (pair,)
+    assert game_seeds(spec, pair, 0) == game_seeds(spec.with_seed(0), pair, 0)
+    assert Event(spec.with_seed(1)).pairs != (pair,)
+
+
+def test_lots_draw_order_and_levels_and_nothing_of_racks_and_noise():
+    terms = WHOLE | {"seeding": "drawn", "noise": {"range": [0.0, 5.0]}, "lots": "ab" * 32}
+    secret = Spec.from_dict(terms)
+    (pair,) = Event(secret).pairs
+    assert not secret.foreseeable
+    with pytest.raises(InvalidSpec, match="reveals when the event is over"):
+        game_seeds(secret, pair, 0)
+    one, other = (Spec.from_dict(terms | {"seed": digits * 32}) for digits in ("cd", "ef"))
+    assert Event(one).pairs == Event(other).pairs == (pair,)
+    assert game_seeds(one, pair, 0).noise != game_seeds(other, pair, 0).noise
+    assert game_seeds(one, pair, 0).rack_seed != game_seeds(other, pair, 0).rack_seed
+    assert Event(Spec.from_dict(terms | {"lots": "cd" * 32})).pairs != (pair,)
+    told = Spec.from_dict(one.revealed())
+    assert (told.seed, told.lots) == (one.seed, one.lots)
+
+
 def test_published_terms_tell_no_secret():
-    spec = Spec("event", (Entrant("a", "python -m secret"), Entrant("b")), seed="5a" * 32)
+    spec = Spec("event", (Entrant("a", "python -m secret"), Entrant("b")), seed="5a" * 32, lots="5a" * 32)
+    assert spec.published()["foreseeable"] is False
     published = json.dumps(spec.published())
     assert "5a5a" not in published
     assert "secret" not in published

@@ -21,12 +21,13 @@ MOST_LEVELS = 6
 Data = dict[str, Any]
 
 
-def event_report(event: Event, luck: Mapping[Key, GameLuck] | None = None) -> Data:
-    """The report of an event, finished or not.
+def event_report(event: Event, luck: Mapping[Key, GameLuck] | None = None, *, rated: bool = True) -> Data:
+    """The report of an event, finished or not; its terms say whether its dice were foreseeable.
 
     Args:
         event: as it stands.
         luck: of games, by pair id and leg, as far as it has been computed.
+        rated: whether the entrants are rated; not where somebody else's players could foresee the dice.
     """
     test = event.test
     return {
@@ -45,6 +46,7 @@ def event_report(event: Event, luck: Mapping[Key, GameLuck] | None = None) -> Da
         "standings": [line.to_dict() for line in standings(event)],
         "byes": [{"round": bye.round, "player": bye.player} for bye in event.byes],
         **_common(event.counted, event.spec.names, luck or {}),
+        **({} if rated else {"ratings": []}),
         "games": [_game(result, luck or {}) for result in _in_order(event)],
     }
 

@@ -94,6 +94,7 @@ def _terms(data: Data) -> str:
         ("Thinking time", "none" if terms["seconds"] is None else f"{terms['seconds']:g} s for each player and game"),
         ("Simulated shots", "any number" if terms["simulated_shots"] is None else terms["simulated_shots"]),
         ("Table", terms["table"] if isinstance(terms["table"], str) else terms["table"].get("name", "own")),
+        ("Racks and noise", "foreseeable, from a known seed" if terms["foreseeable"] else "drawn by the server"),
         ("Games played", state["played"]),
         ("State", "finished" if state["finished"] else f"under way, {state['due']} games due"),
         *([("Withdrawn", ", ".join(state["withdrawn"]))] if state["withdrawn"] else []),
@@ -198,7 +199,7 @@ def _noise(data: Data) -> str:
     rows = data["noise"]
     if len({(row["from"], row["to"]) for row in rows}) < 2:
         return ""
-    names = [one["name"] for one in data["ratings"]][:MOST_LINES]
+    names = [one["name"] for one in data["ratings"] or data["standings"]][:MOST_LINES]
     middle: Callable[[Data], float] = lambda row: (row["from"] + row["to"]) / 2.0  # noqa: E731
     drawn = [
         Line(name, tuple((middle(row), row["points"] / row["games"], row["low"], row["high"]) for row in mine))

@@ -16,6 +16,8 @@ from client.arena.terms import Terms
 from client.errors import BudgetSpent, ConnectionFailed
 from referee.record import read_record, verify_record
 from referee.wire import Turn, VoidRequest
+from tournament import Event, game_seeds
+from tournament.report import event_report
 
 CUP = {
     "name": "cup",
@@ -54,6 +56,39 @@ def test_the_same_terms_and_seed_are_the_same_games_with_and_without_a_server(tm
     view = hall.organiser.tournament(json.loads((there.path / "server.json").read_text())["tournament"])
     assert view.status == "finished"
     assert RemoteRunner(there, hall.url, hall.organiser_token).run().event.counted == remote.event.counted
+
+
+MODEST = """
+import json, sys
+for line in sys.stdin:
+    if json.loads(line)["type"] == "turn":
+        print('{"decision": "concede"}', flush=True)
+"""
+
+
+def test_an_event_whose_secrets_the_server_draws_is_kept_in_the_same_books(tmp_path, hall):
+    """Order and levels follow from the lots; the seed, and records with untold noise, come when the event is over."""
+    (tmp_path / "bot.py").write_text(MODEST)
+    entrants = [{"name": name, "agent": f"stdio:{sys.executable} {tmp_path / 'bot.py'}"} for name in ("ann", "bob")]
+    noise = {"range": [0.0, 5.0], "told": False}
+    terms = {"name": "cup", "entrants": entrants, "seeding": "drawn", "noise": noise, "seconds": 300.0}
+    directory = EventDirectory.create(tmp_path / "cup", Terms.from_dict(terms).to_dict())
+    assert directory.terms()["seed"] is None
+    ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
+    spec = Terms.from_dict(directory.terms()).spec
+    assert (ledger.event.finished, len(spec.seed), len(spec.lots), spec.foreseeable) == (True, 64, 64, False)
+    assert event_report(ledger.event)["terms"]["foreseeable"] is False
+    for result in ledger.event.counted:
+        path = directory.path / result.record
+        assert verify_record(path).ok
+        record = read_record(path)
+        assert None not in record.header["client_seeds"]
+        assert record.header["noise"] == {"level": result.noise, "told": False}
+        (due,) = (due for due in Event(spec).due if (due.pair.id, due.leg) == (result.pair, result.leg))
+        assert due.pair.players == result.players
+        assert record.end["noise_secret"] == game_seeds(spec, due.pair, due.leg).noise.hex()
+    again = RemoteRunner(directory, hall.url, hall.organiser_token).run()
+    assert again.event.counted == ledger.event.counted
 
 
 STUBBORN = """
