@@ -11,6 +11,7 @@ import contextlib
 import itertools
 import json
 import tempfile
+from collections import Counter
 from collections.abc import AsyncIterator
 from typing import Any
 
@@ -44,36 +45,43 @@ _keys = itertools.count()
 
 
 def measure(full: bool) -> Tables:
-    """Periods without and with the hostile clients, one after the other."""
-    return {"strokes": asyncio.run(compare(periods=4 if full else 2, seconds=60.0 if full else 20.0))}
+    """Periods without and with the hostile clients, in turns."""
+    return {"strokes": asyncio.run(compare(periods=4 if full else 1, seconds=60.0 if full else 20.0))}
 
 
 async def compare(periods: int, seconds: float) -> list[Row]:
-    """The quiet row and the busy one."""
+    """The quiet row and the busy one. Every period has a server of its own: what was asked for is played after it."""
     found: dict[str, list[Tally]] = {"quiet": [], "costly strokes": []}
-    costly = dict.fromkeys(found, 0)
+    asked, answered = dict.fromkeys(found, 0), dict.fromkeys(found, 0)
+    for _ in range(periods):
+        for name, tallies in found.items():
+            tally, count = await period(HOSTILE if name != "quiet" else 0, seconds)
+            tallies.append(tally)
+            asked[name] += count["asked"]
+            answered[name] += count["answered"]
+    measured = [row(name, tallies, seconds) for name, tallies in found.items()]
+    quiet = measured[0]["p99_ms"]
+    for each in measured:
+        name = each["what"]
+        each |= {"p99_ratio": round(each["p99_ms"] / quiet, 2), "asked": asked[name], "answered": answered[name]}
+    return measured
+
+
+async def period(hostile: int, seconds: float) -> tuple[Tally, Counter[str]]:
+    """The strokes of a fresh server's games beside so many hostile clients, and what those came to."""
     with (
         tempfile.TemporaryDirectory() as folder,
         serving("server", "--database", f"sqlite:///{folder}/pooliad.db") as port,
     ):
         await ready(port)
-        async with connections(port, GAMES) as wires, connections(port, HOSTILE) as others:
+        async with connections(port, GAMES) as wires, connections(port, hostile) as others:
             tables = [await begin(wire, number, ORGANISER) for number, wire in enumerate(wires)]
-            rows = [await challenge(wire, number) for number, wire in enumerate(others)]
-            for _ in range(periods):
-                for name, tallies in found.items():
-                    async with crowd(port, rows if name != "quiet" else []) as count:
-                        tally = Tally(seconds, GAMES)
-                        await asyncio.gather(
-                            *(play_one(wire, table, tally) for wire, table in zip(wires, tables, strict=True))
-                        )
-                    tallies.append(tally)
-                    costly[name] += count[0]
-    measured = [row(name, tallies, seconds) for name, tallies in found.items()]
-    quiet = measured[0]["p99_ms"]
-    for each in measured:
-        each |= {"p99_ratio": round(each["p99_ms"] / quiet, 2), "costly": costly[each["what"]]}
-    return measured
+            matches = [await challenge(wire, number) for number, wire in enumerate(others)]
+            async with crowd(port, matches) as count:
+                tally = Tally(seconds, GAMES)
+                played = (play_one(wire, table, tally) for wire, table in zip(wires, tables, strict=True))
+                await asyncio.gather(*played)
+    return tally, count
 
 
 def start() -> dict[str, Any]:
@@ -103,9 +111,9 @@ async def challenge(wire: Connection, number: int) -> tuple[Player, Player]:
 
 
 @contextlib.asynccontextmanager
-async def crowd(port: int, matches: list[tuple[Player, Player]]) -> AsyncIterator[list[int]]:
-    """These clients at work for as long as the block lasts; how many costly strokes were answered."""
-    count = [0]
+async def crowd(port: int, matches: list[tuple[Player, Player]]) -> AsyncIterator[Counter[str]]:
+    """These clients at work for as long as the block lasts; how many costly strokes were asked for, and answered."""
+    count: Counter[str] = Counter(asked=0, answered=0)
     tasks = [asyncio.create_task(hold_up(port, players, count)) for players in matches]
     try:
         yield count
@@ -117,7 +125,7 @@ async def crowd(port: int, matches: list[tuple[Player, Player]]) -> AsyncIterato
                 raise RuntimeError("a hostile client came to an end") from result
 
 
-async def hold_up(port: int, players: tuple[Player, Player], count: list[int]) -> None:
+async def hold_up(port: int, players: tuple[Player, Player], count: Counter[str]) -> None:
     """Play the stroke, give the game up, and again."""
     async with connections(port, 1) as (wire,):
         while True:
@@ -133,9 +141,10 @@ async def hold_up(port: int, players: tuple[Player, Player], count: list[int]) -
                 f'If-Match: "{view["version"]}"\r\nIdempotency-Key: costly {next(_keys)}\r\n'
             )
             request = Connection.request("POST", f"/v1/games/{view['game']}/{verb}", len(body), headers)
+            count["asked"] += verb == "shots"
             reply = await wire.send(request, body)
             assert reply.status == 200 or b"stale" in reply.body, reply.body
-            count[0] += verb == "shots" and reply.status == 200
+            count["answered"] += verb == "shots" and reply.status == 200
 
 
 if __name__ == "__main__":
