@@ -20,6 +20,7 @@ BENCHMARKS = {
     "search": "the shipped search in pairs of games against greedy and against itself without its parts",
     "search_habits": "what typically happens in games of search: the constants behind its values",
     "saturation": "times of strokes while one client keeps the batch endpoint busy, and while none does",
+    "costly_strokes": "times of strokes while 16 clients play strokes of 20,000 events, and while none does",
     "page": "the page with 30 live games: the browser's processor time and its longest frame",
     "search_breaks": "the study behind the break of `search`: random breaks, halved again and again",
     "tournaments": "events of in-process agents: games per second, in one process and with one and two workers",

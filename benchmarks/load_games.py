@@ -31,7 +31,8 @@ async def begin(
     wire: Connection, number: int, organiser: str, games: int = 1000, seconds: float = 86_400
 ) -> tuple[Player, Player]:
     """A match between two fresh agents; unless told one that does not end while it is measured."""
-    made = [await wire.post("/v1/agents", {"name": f"load {number} {seat}"}) for seat in (0, 1)]
+    names = [f"load {number} {seat}" for seat in (0, 1)]
+    made = [await wire.post("/v1/agents", {"name": name}, organiser, name) for name in names]
     terms = {
         "agents": [one["agent"]["id"] for one in made],
         "games": games,

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from physics.constants import BALL_RADIUS, N_BALLS, PLACEMENT_TOLERANCE
+from physics.constants import BALL_RADIUS, EVENT_LIMIT, N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
 from physics.facts import FACTS_DTYPE
@@ -68,6 +68,7 @@ def simulate_batch(
     threads: int = 1,
     counters: NDArray[np.int64] | None = None,
     check: Callable[[], None] | None = None,
+    event_limit: int = EVENT_LIMIT,
 ) -> Batch:
     """Simulate n shots without traces. Each has the same bits as ``simulate`` gives it, whatever ``threads``.
 
@@ -78,13 +79,15 @@ def simulate_batch(
         counters: (n, 4) int64 to be filled with the work each shot took: predictions of a ball's next event, pairs the
             filter left, contacts solved, looks at the boundary.
         check: called before every ``CHECKED_ROWS`` rows or fewer; what it raises ends the batch.
+        event_limit: as for ``simulate``, of each shot.
 
     A shot that cannot be played is a result: its status says why, positions unchanged, no events.
 
     Raises:
         InvalidShot: wrong shape, or a value that is not finite; names the first bad row.
         InvalidState: wrong shape, not finite, off the table or overlapping; names the first bad row.
-        ValueError: ``threads`` is not a positive integer, or ``counters`` another kind of array.
+        ValueError: ``threads`` is not a positive integer, ``event_limit`` out of range, or ``counters`` another kind of
+            array.
     """
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
         raise ValueError(f"threads = {threads!r}: must be a positive integer")
@@ -102,7 +105,7 @@ def simulate_batch(
         ),
         *(NO_TRACE, 0, NO_COUNTERS if counters is None else _checked_counters(counters, n)),
     )
-    run, row = kernels().simulate_rows, parameters(table)
+    run, row = kernels().simulate_rows, parameters(table, event_limit)
 
     def part(first: int, last: int) -> None:
         if check is not None:

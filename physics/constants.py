@@ -38,3 +38,6 @@ V_MAX: Final = 10.0
 
 THETA_MAX: Final = 70.0
 """deg, the greatest cue elevation of the Olympiad."""
+
+EVENT_LIMIT: Final = 1_000_000
+"""Events after which a shot ends with ``Status.EVENT_LIMIT`` unless told otherwise; a break has about a hundred."""

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.constants import BALL_MASS
+from physics.constants import BALL_MASS, EVENT_LIMIT
 from physics.table import Table
 
 NO_SLIP, NO_SLIP_HISTORICAL = 1e-12, 1e-10
@@ -11,6 +11,8 @@ NO_SLIP, NO_SLIP_HISTORICAL = 1e-12, 1e-10
 value is the historical engine's."""
 
 _KEPT_AS = "_kernel_parameters"
+LIMITS_KEPT = 8
+"""Rows of one table that are kept, each with another limit of events: a game's and the physics' own are usual."""
 
 REST_TIME, REST_TIME_HISTORICAL = 1e-3, 1e-6
 """s. A touching pair, or a ball at a cushion, that would meet again sooner is resting. Balls pressed together meet at
@@ -26,19 +28,40 @@ HISTORICAL_INERTIA = 0.4 * 0.160 * 0.995473 / BALL_MASS
 """The historical strike: a factor on its bracket, and its moment of inertia over m R^2."""
 
 
-def parameters(table: Table) -> NDArray[np.float64]:
-    """(1, P_SIZE) float64, read-only; the order is that of ``physics.kernels.layout``."""
-    known = table.__dict__.get(_KEPT_AS)  # a cache keyed by the table would hash its 20 numbers at every shot
-    if known is None:
-        known = table.__dict__[_KEPT_AS] = _row(table)
+def parameters(table: Table, event_limit: int = EVENT_LIMIT) -> NDArray[np.float64]:
+    """(1, P_SIZE) float64, read-only; the order is that of ``physics.kernels.layout``.
+
+    Raises:
+        ValueError: ``event_limit`` is not an integer from 1 to ``EVENT_LIMIT``.
+    """
+    rows = table.__dict__.get(_KEPT_AS)  # a cache keyed by the table would hash its 20 numbers at every shot
+    if rows is None:
+        rows = table.__dict__[_KEPT_AS] = {}
+    known = rows.get(event_limit)
+    if known is None or type(event_limit) is not int:  # True and 1.0 are found under 1
+        known = _row(table, checked_event_limit(event_limit))
+        if len(rows) == LIMITS_KEPT:
+            rows.clear()
+        rows[event_limit] = known
     return known
+
+
+def checked_event_limit(value: int) -> int:
+    """The limit as it was given.
+
+    Raises:
+        ValueError: it is not an integer from 1 to ``EVENT_LIMIT``.
+    """
+    if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= EVENT_LIMIT:
+        raise ValueError(f"event_limit = {value!r}: must be an integer from 1 to {EVENT_LIMIT}")
+    return value
 
 
 def _rest_time(table: Table) -> float:
     return REST_TIME * max(1.0, REST_AT_SLIDE / table.mu_slide, REST_AT_ROLL / table.mu_roll)
 
 
-def _row(table: Table) -> NDArray[np.float64]:
+def _row(table: Table, event_limit: int) -> NDArray[np.float64]:
     radius = table.ball_radius
     half_x, half_y = 0.5 * table.width, 0.5 * table.length
     historical = table.collisions == "fastfiz"
@@ -63,6 +86,7 @@ def _row(table: Table) -> NDArray[np.float64]:
             1.0 / radius,
             *(2.0 / (7.0 * table.mu_slide * table.gravity), 1.0 / (table.mu_roll * table.gravity), 1.0 / spin),
             REST_TIME_HISTORICAL if historical else _rest_time(table),
+            float(event_limit),
         ]
     )
     row.flags.writeable = False

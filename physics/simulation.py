@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.constants import N_BALLS, PLACEMENT_TOLERANCE
+from physics.constants import EVENT_LIMIT, N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
 from physics.facts import FACTS_DTYPE, Facts
@@ -123,7 +123,7 @@ class Result:
         return f"Result({self.status.name}, {self.n_events} events, {self.duration:.3f} s)"
 
 
-def simulate(table: Table, state: TableState, shot: Shot, trace: bool = True) -> Result:
+def simulate(table: Table, state: TableState, shot: Shot, trace: bool = True, event_limit: int = EVENT_LIMIT) -> Result:
     """Play one shot and follow every ball until all are at rest.
 
     The event-based method of Leckie & Greenspan (2005): from one event to the next along closed forms. The same bits
@@ -133,35 +133,41 @@ def simulate(table: Table, state: TableState, shot: Shot, trace: bool = True) ->
     Args:
         table: the table; state: the balls at rest on it; shot: the stroke.
         trace: whether to keep the events; without them there are no ``events`` and no ``at(t)``.
+        event_limit: at the first instant by which there are so many events, from 1 to ``EVENT_LIMIT``, every ball is
+            stopped where it is: ``Status.EVENT_LIMIT``. The events of that instant are all told.
 
     Raises:
         InvalidState: a ball lies outside the cushion lines or in a mouth of this table.
         InvalidShot: ``shot`` is not a ``Shot``.
+        ValueError: ``event_limit`` is out of range.
     """
     if not isinstance(shot, Shot):
         raise InvalidShot("shot", shot, "must be a physics.Shot")
     stroke = np.array((shot.v, shot.phi, shot.theta, shot.a, shot.b)).reshape(1, 5)
-    return _run(table, checked_positions(table, state), stroke, trace)
+    return _run(table, checked_positions(table, state), stroke, trace, event_limit)
 
 
-def resume(table: Table, snapshot: Snapshot, trace: bool = True) -> Result:
+def resume(table: Table, snapshot: Snapshot, trace: bool = True, event_limit: int = EVENT_LIMIT) -> Result:
     """Go on from a snapshot, its time counting as 0. There is no cue strike, and ``facts`` count from here.
+
+    ``event_limit`` is as for ``simulate``.
 
     Raises:
         InvalidState: the snapshot holds what cannot be: see ``Snapshot.refuse_impossible``.
+        ValueError: ``event_limit`` is out of range.
     """
     if not isinstance(snapshot, Snapshot):
         raise InvalidState("snapshot", snapshot, "must be a physics.Snapshot")
     snapshot.refuse_impossible(table)
-    return _run(table, snapshot.to_states(), NO_SHOT, trace)
+    return _run(table, snapshot.to_states(), NO_SHOT, trace, event_limit)
 
 
-def _run(table: Table, states: Floats, stroke: Floats, trace: bool) -> Result:
+def _run(table: Table, states: Floats, stroke: Floats, trace: bool, event_limit: int) -> Result:
     """One row through the kernel; a trace that turns out too short is written again, with room for all."""
     final, facts = np.empty((1, 2 * N_BALLS)), np.empty((1, FACTS_DTYPE.itemsize // 8))
     integers = facts.view(np.int32)
     outputs = final, np.empty((1, N_BALLS), np.int8), np.empty(1, np.int8), integers, facts
-    entry, row, work = kernels().simulate_rows, parameters(table), workspace()
+    entry, row, work = kernels().simulate_rows, parameters(table, event_limit), workspace()
     rows = TRACE_ROWS if trace else 0
     events = np.empty((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
     entry(row, *work, states, stroke, *outputs, events, rows, NO_COUNTERS, 0, 1)

@@ -96,6 +96,8 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
         access_log=False,
         log_config=None,
         server_header=False,
+        proxy_headers=bool(settings.proxies),
+        forwarded_allow_ips=settings.named_proxies,
         log_level="warning",
         timeout_graceful_shutdown=max(1, round(settings.drain_seconds)),
     )

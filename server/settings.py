@@ -4,6 +4,7 @@ Read once, then passed to `create_app`.
 """
 
 import hashlib
+import ipaddress
 import math
 import re
 import tomllib
@@ -80,6 +81,9 @@ class Settings:
     token_burst: float = setting(1000.0, "requests of one token at once")
     address_rate: float = setting(200.0, "requests a second of one address without a valid token")
     address_burst: float = setting(1000.0, "such requests at once")
+    registration_rate: float = setting(0.2, "agents a second that one address registers; organisers are not counted")
+    registration_burst: float = setting(100.0, "such registrations at once")
+    proxies: str = setting("", "addresses or networks, apart by `,`, of proxies whose `X-Forwarded-For` is believed")
     streams: int = setting(64, "streams of one token, or of one address without one, that may be open at once")
     polls: int = setting(64, "long polls of one token that may be open at once")
     physics_threads: int = setting(2, "threads for simulations that clients ask for")
@@ -91,8 +95,14 @@ class Settings:
 
     def __post_init__(self) -> None:
         _require_database(self.database)
+        _networks(self.proxies)
         for each in settable():
             _check(each, getattr(self, each.name))
+
+    @property
+    def named_proxies(self) -> list[str]:
+        """The addresses and networks of `proxies`, one by one."""
+        return _networks(self.proxies)
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str]) -> "Settings":
@@ -158,6 +168,18 @@ def _require_database(url: str) -> None:
     if not (is_file or url.startswith("postgresql://")):
         allowed = "sqlite:///path (a file), postgresql://user@host/name"
         raise SettingsError(f"database is {without_password(url)!r}; allowed: {allowed}")
+
+
+def _networks(text: str) -> list[str]:
+    """Addresses and networks, one by one; raises `SettingsError` for what is neither."""
+    named = [each.strip() for each in text.split(",") if each.strip()]
+    for each in named:
+        try:
+            ipaddress.ip_network(each)
+        except ValueError as error:
+            allowed = "IP addresses and networks, such as 10.0.0.2, 10.1.0.0/16"
+            raise SettingsError(f"proxies is {text!r}; allowed: {allowed} ({error})") from error
+    return named
 
 
 def without_password(url: str) -> str:

@@ -84,4 +84,5 @@ P_BRACKET, P_INERTIA = 25, 26  # strike: factor of the bracket, and I / (m R^2)
 P_PER_RADIUS = 27  # 1/m
 P_SLIDE_LASTS, P_ROLL_LASTS, P_SPIN_LASTS = 28, 29, 30  # s per m/s of slip, of speed; s per rad/s of spin
 P_REST_TIME = 31  # s: see physics.parameters
-P_SIZE = 32
+P_EVENT_LIMIT = 32  # events after which a shot ends; not the table's, but the caller's
+P_SIZE = 33

@@ -31,6 +31,7 @@ from physics.kernels.layout import (
     N_EVENTS,
     NEXT,
     NOTHING,
+    P_EVENT_LIMIT,
     PARTNER,
     POCKET_COLLISION,
     POCKETED,
@@ -48,7 +49,7 @@ from physics.kernels.resolve.cluster import FAILED, NOBODY, restate, settle
 from physics.kernels.resolve.touching import NO_CUSHION, bring, touched_cushion
 from physics.kernels.start import note_frozen, note_start, place, put_away, reset, restore
 from physics.kernels.strike import MILLIMETRE, direction, strike, unplayable
-from physics.kernels.tolerances import EVENT_LIMIT, STEP_LIMIT
+from physics.kernels.tolerances import STEPS_PER_EVENT
 
 AT_REST, TOO_MANY_EVENTS = 0, 5
 """Numbers of physics.Status."""
@@ -126,9 +127,10 @@ def predict_all(p, w, k, alive, changed, now):
 def run(p, w, k, facts, facts_float, trace, alive, changed):
     """Go from event to event, after the balls in ``changed`` were set in motion at time 0; (status, duration)."""
     now = 0.0
+    limit = int(load(p, P_EVENT_LIMIT))
     predict_all(p, w, k, alive, changed, now)
-    for _ in range(STEP_LIMIT):
-        if load_integer(k, N_EVENTS) >= EVENT_LIMIT:
+    for _ in range(STEPS_PER_EVENT * limit):
+        if load_integer(k, N_EVENTS) >= limit:
             break
         i, time = earliest(w, k)
         if time == math.inf:

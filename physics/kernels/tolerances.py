@@ -40,11 +40,9 @@ STILL = 1e-11
 it such a ball, pushed anew by its neighbour whenever it began to roll, made a million events in 60 ms; and a touching
 neighbour is looked at again before it is 1e-12 m deeper."""
 
-EVENT_LIMIT = 1_000_000
-"""Events after which a shot ends with ``Status.EVENT_LIMIT``; a break has about a hundred."""
-
-STEP_LIMIT = 4 * EVENT_LIMIT
-"""Steps of the event loop after which a shot ends with ``Status.EVENT_LIMIT``: events, and looks again."""
+STEPS_PER_EVENT = 4
+"""Steps of the event loop (events, and looks again) for each event that the limit allows, after which a shot ends with
+``Status.EVENT_LIMIT``."""
 
 ROUND_LIMIT = 10_000
 """Rounds of the contact rule at one instant after which a shot ends with ``Status.EVENT_LIMIT``."""

@@ -78,7 +78,7 @@ def play_stroke(
     """Play one action of the player in turn.
 
     Args:
-        rules: the referee, on its table.
+        rules: the referee, on its table; its limits end a stroke that has too many events.
         game: as it stands.
         action: a stroke, a decision or a concession.
         seeds: of the game; someone who searches ahead gives seeds of their own.
@@ -97,7 +97,7 @@ def play_stroke(
         return Stroke(game.turn, None, action, game.state, None, None, ruling, racked(rules, ruling, game, seeds))
     before = start_state(game, action)
     shot = noise.perturb(action.shot, seeds.noise_seed, game.stroke)
-    result = simulate(rules.table, before, shot, trace=trace)
+    result = simulate(rules.table, before, shot, trace=trace, event_limit=rules.limits.events)
     ruling = rules.apply(game, action, result.facts, result.final)
     after = racked(rules, ruling, game, seeds)
     return Stroke(game.turn, game.stroke, action, before, shot, result, ruling, after)

@@ -22,6 +22,13 @@ def line_digest(line: str) -> str:
     return hashlib.sha256(line.encode()).hexdigest()
 
 
+def _joined(values: Mapping[str, Any], written: Mapping[str, str]) -> str:
+    """The canonical text of an object some of whose members are written: by key, in the order of UTF-16 (RFC 8785)."""
+    members = {key: canonical(value) for key, value in values.items()} | dict(written)
+    keys = sorted(members, key=lambda key: key.encode("utf-16-be"))
+    return "{" + ",".join(f"{canonical(key)}:{members[key]}" for key in keys) + "}"
+
+
 class Chain:
     """Lines being written one after the other.
 
@@ -32,9 +39,13 @@ class Chain:
     def __init__(self, head: str = GENESIS) -> None:
         self.head = head
 
-    def add(self, entry: Mapping[str, Any]) -> str:
-        """The next line: the entry with the line before it, in canonical form."""
-        line = canonical({**entry, PREVIOUS: self.head})
+    def add(self, entry: Mapping[str, Any], written: Mapping[str, str] | None = None) -> str:
+        """The next line: the entry with the line before it, in canonical form.
+
+        ``written``: further members of the entry, each in canonical form already.
+        """
+        values = {**entry, PREVIOUS: self.head}
+        line = canonical(values) if written is None else _joined(values, written)
         self.head = line_digest(line)
         return line
 

@@ -7,7 +7,7 @@ the first game is over: without them nobody can try out which noise level was co
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any, Final, Self
 
 from physics.table import Table
@@ -94,7 +94,7 @@ class MatchTerms:
             "engine": self.engine.to_dict(),
             "match": self.match,
             "games": self.games,
-            "rules": {"name": "eight_ball", "limits": asdict(self.rules.limits)},
+            "rules": {"name": "eight_ball", "limits": self.rules.limits.to_dict()},
             "table": self.rules.table.to_dict(),
             "noise": {"level": self.noise.level, "told": self.noise.told},
             "racks": {"shared": self.shared_racks, "paired": self.paired_racks},
@@ -112,7 +112,7 @@ class MatchTerms:
         return cls(
             match=values["match"],
             games=values["games"],
-            rules=EightBall(Table.from_dict(values["table"]), Limits(**values["rules"]["limits"])),
+            rules=EightBall(Table.from_dict(values["table"]), Limits.from_dict(values["rules"]["limits"])),
             noise=NoiseModel(**values["noise"]),
             shared_racks=values["racks"]["shared"],
             paired_racks=values["racks"]["paired"],

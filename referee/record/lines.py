@@ -117,13 +117,14 @@ class Header:
             raise InvalidGame("header", sorted(values), f"a header of format {FORMAT}: {error!r}") from None
 
 
-def stroke_entry(stroke: Stroke, entry: int, elapsed_ns: int | None = None) -> dict[str, Any]:
+def stroke_entry(stroke: Stroke, entry: int, elapsed_ns: int | None = None, *, events: bool = True) -> dict[str, Any]:
     """The object of one stroke or decision.
 
     Args:
         stroke: what happened, its result with events.
         entry: number of the line among strokes and decisions, from 0.
         elapsed_ns: thinking time charged for it; None without clocks.
+        events: whether they are in it, or written apart.
     """
     return {
         "type": "stroke",
@@ -132,7 +133,7 @@ def stroke_entry(stroke: Stroke, entry: int, elapsed_ns: int | None = None) -> d
         "seat": stroke.seat,
         "elapsed_ns": elapsed_ns,
         "action": stroke.action.to_dict(),
-        **_played(stroke),
+        **_played(stroke, events),
         "ruling": {key: value for key, value in stroke.ruling.to_dict().items() if key not in ("game", "allowed")},
         "game": stroke.game.to_dict(),
     }
@@ -190,7 +191,7 @@ def record_lines(
     yield chain.add(unsigned_seal())
 
 
-def _played(stroke: Stroke) -> dict[str, Any]:
+def _played(stroke: Stroke, events: bool) -> dict[str, Any]:
     """What the physics did; nothing for a decision."""
     result, shot = stroke.result, stroke.shot
     if result is None or shot is None:
@@ -198,7 +199,7 @@ def _played(stroke: Stroke) -> dict[str, Any]:
     return {
         "before": stroke.before.to_dict(),
         "shot": shot.to_dict(),
-        "events": [event.to_dict() for event in result.events],
+        **({"events": [event.to_dict() for event in result.events]} if events else {}),
         "status": Status(result.status).name.lower(),
         "duration": result.duration,
         "final": result.final.to_dict(),

@@ -41,7 +41,7 @@ class EightBall:
 
     Attributes:
         table: the table the game is played on.
-        limits: when a game counts as stuck (R49).
+        limits: when a game counts as stuck (R49), and when a stroke is ended.
     """
 
     table: Table

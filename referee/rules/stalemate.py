@@ -1,30 +1,54 @@
-"""R49: a game that does not get on is replayed, and in the end drawn."""
+"""The limits of a game; R49: one that does not get on is replayed, and in the end drawn."""
 
-from dataclasses import dataclass, fields, replace
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from typing import Any, Final, Self
 
+from physics.constants import EVENT_LIMIT
 from referee.errors import InvalidGame
 from referee.game import EndReason, Game, Outcome, Phase, RuleId
+
+EVENTS_OF_A_STROKE: Final = 20_000
+"""A hundred times as many as a break has, and more than any ordinary stroke: see docs/benchmarks.md, Stress."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """When a game counts as stuck.
+    """When a game counts as stuck, and when a stroke is ended.
 
     Attributes:
         dry_visits: consecutive visits without a pocketed object ball that make a stalemate.
         replays: racks replayed for a stalemate before the next stalemate draws the game.
         strokes: strokes in a game, replayed racks included, after which it is drawn.
+        events: events of a stroke, at most ``physics.constants.EVENT_LIMIT``, after which the balls are stopped where
+            they are (``Status.EVENT_LIMIT``). The rules go on from there.
     """
 
     dry_visits: int = 24
     replays: int = 2
     strokes: int = 400
+    events: int = EVENTS_OF_A_STROKE
 
     def __post_init__(self) -> None:
-        for field, least in zip(fields(self), (1, 0, 1), strict=True):
+        for field, least in zip(fields(self), (1, 0, 1, 1), strict=True):
             value = getattr(self, field.name)
             if isinstance(value, bool) or not isinstance(value, int) or value < least:
                 raise InvalidGame(f"limits.{field.name}", value, f"an integer of at least {least}")
+        if self.events > EVENT_LIMIT:
+            raise InvalidGame("limits.events", self.events, f"an integer of at most {EVENT_LIMIT}")
+
+    def to_dict(self) -> dict[str, int]:
+        """Plain values by name. The events are left out where they are the physics' own limit: see ``from_dict``."""
+        return {name: value for name, value in asdict(self).items() if (name, value) != ("events", EVENT_LIMIT)}
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> Self:
+        """Read what ``to_dict`` wrote. Version 0.1.0 ended no stroke before the physics did, and wrote no events.
+
+        Raises:
+            InvalidGame: a value that cannot be. TypeError: an unknown name.
+        """
+        return cls(**({"events": EVENT_LIMIT} | dict(values)))
 
 
 def dry_visits_after(game: Game, turn: int, pocketed: bool) -> int:

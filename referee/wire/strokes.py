@@ -56,15 +56,15 @@ class StrokeDetail(StrokeView):
     events: tuple[EventView, ...]
 
     @classmethod
-    def of(cls, stroke: Stroke, index: int) -> Self:
-        """The wire's form of the ``index``-th entry of a game's history, events included."""
+    def of(cls, stroke: Stroke, index: int, *, events: bool = True) -> Self:
+        """The wire's form of the ``index``-th entry of a game's history; ``events``: with its events."""
         result = stroke.result
         details: dict[str, Any] = {"before": None, "final": None, "events": ()}
         if result is not None:
             details = {
                 "before": stroke.before.to_dict(),
                 "final": result.final.to_dict(),
-                "events": tuple(event.to_dict() for event in result.events),
+                "events": tuple(event.to_dict() for event in result.events) if events else (),
             }
         return cls.model_validate(_summary(stroke, index) | details)
 

@@ -8,6 +8,7 @@ from referee.wire import AgentList, AgentRequest, AgentToken, AgentView
 from server.errors import Forbidden, Invalid, NameTaken, Unauthorized, invalid_field
 from server.routes.dependencies import (
     ANYBODY,
+    Address,
     Authenticated,
     Body,
     ContentType,
@@ -31,9 +32,12 @@ router = APIRouter(prefix="/v1/agents", tags=["agents"])
     **describe(NameTaken, Unauthorized, Forbidden, body=AgentRequest, success={201: AgentToken}, token=False),
     summary="Register an agent",
 )
-def register(context: Server, visitor: Visitor, body: Body, content_type: ContentType = None) -> Response:
+def register(
+    context: Server, visitor: Visitor, address: Address, body: Body, content_type: ContentType = None
+) -> Response:
     """The answer holds the agent's token, which is shown this once."""
-    return respond(agents.register(context, parse_body(body, content_type, AgentRequest), visitor))
+    request = parse_body(body, content_type, AgentRequest)
+    return respond(agents.register(context, request, visitor, address))
 
 
 @router.get("", **describe(Invalid, Unauthorized, token=False), dependencies=[ANYBODY], summary="All agents")

@@ -8,6 +8,7 @@ from sqlalchemy import Connection
 
 from server.errors import Unauthorized
 from server.routes.describe import NUMBER, PAGE_LIMIT, PLACE, SEARCH
+from server.security.addresses import origin
 from server.security.callers import Caller, identify
 from server.security.tokens import bearer
 from server.services import pages
@@ -53,7 +54,7 @@ def _token(request: Request) -> str | None:
 
 
 def _address(request: Request) -> str:
-    return request.client.host if request.client else "unknown"
+    return origin(request.client.host if request.client else None)
 
 
 def _simulating(caller: Annotated[Caller, Depends(_caller)]) -> Caller:
@@ -78,6 +79,8 @@ Simulating = Annotated[Caller, Depends(_simulating)]
 """Somebody who plays or organises: may use the physics."""
 Visitor = Annotated[Caller | None, Depends(_visitor)]
 """Somebody who needs no token; one that is sent must be valid all the same."""
+Address = Annotated[str, Depends(_address)]
+"""Where the request comes from, as `origin` has it."""
 Reader = Annotated[Caller | None, Depends(_reader)]
 """Whoever reads something public: anybody, unless the settings ask for a token, whatever its scope."""
 ANYBODY = Depends(_reader)

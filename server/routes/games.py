@@ -1,5 +1,7 @@
 """Games: how they stand, the players' actions, the history and the record."""
 
+from functools import partial
+
 from fastapi import APIRouter, Response
 
 from referee.wire import ClockLedger, DecisionRequest, ForfeitRequest, GameAnswer, ShotRequest, ShotsPage, StrokeAnswer
@@ -40,9 +42,10 @@ def game(game_id: str, context: Server, reader: Reader) -> Response:
     dependencies=[InHand],
     summary="Play a stroke",
 )
-def shoot(game_id: str, context: Server, move: Moved) -> Response:
+async def shoot(game_id: str, context: Server, move: Moved) -> Response:
     """The shot as played (with noise), its events, the ruling and the next view."""
-    return respond(strokes.shoot(context, game_id, move))
+    play = partial(strokes.shoot, context, game_id, move)
+    return respond(await context.long_strokes.play(game_id, play))
 
 
 @router.post(

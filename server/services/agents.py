@@ -8,7 +8,9 @@ from sqlalchemy import Connection, Row, insert, select, update
 from referee.play import nanoseconds
 from referee.wire import AgentList, AgentRequest, AgentToken, AgentView
 from server.errors import Forbidden, NameTaken, NotFound
+from server.security.addresses import UNKNOWN
 from server.security.callers import Caller, Scope
+from server.security.names import skeleton
 from server.security.tokens import derived_token, digest, new_token
 from server.services import pages
 from server.services.commands import Answer, Command
@@ -20,25 +22,44 @@ from server.store.locks import only_one
 from server.store.tables import agents, tokens
 
 
-def register(context: Context, request: AgentRequest, caller: Caller | None = None) -> Answer:
-    """A new agent with its first token; raises `NameTaken`, and `Forbidden` where not everybody may register."""
+def register(context: Context, request: AgentRequest, caller: Caller | None = None, address: str = UNKNOWN) -> Answer:
+    """A new agent with its first token; raises `NameTaken`, and `Forbidden` where not everybody may register.
+
+    Organisers register as often as they ask for anything; others are counted by their address, which raises
+    `TooManyRequests`: every account has rates of its own, and must not come as cheap as a read.
+    """
+    if caller is None or not caller.is_organiser:
+        context.limits.count_registration(address)
     agent_id = f"agent_{secrets.token_hex(8)}"
     with context.writing() as writing:
-        connection, now = writing.connection, writing.now
+        connection = writing.connection
         _require_welcome(writing, request, caller, agent_id)
-        only_one(connection, f"name {request.name}")
-        if connection.execute(select(agents.c.id).where(agents.c.name == request.name)).first():
+        if (taken := namesake(connection, request.name)) is not None:
             raise NameTaken(
-                f"the name {request.name!r} is taken",
+                f"name = {request.name!r}: must not look like that of another agent, {taken.name!r}",
                 field="name",
                 value=request.name,
-                allowed="another name",
+                allowed=f"another name, which does not look like {taken.name!r}",
             )
-        connection.execute(insert(agents).values(id=agent_id, name=request.name, house=False, created_at=now))
+        insert_agent(writing, agent_id, request.name, house=False)
         token = new_token()
         _issue(writing, agent_id, token)
         agent = _agent(connection, agent_id)
     return Answer.of(201, AgentToken(agent=_view(agent), token=token))
+
+
+def namesake(connection: Connection, name: str) -> Row[Any] | None:
+    """The agent of this name, else the first that looks like it, else None: then the name is the transaction's."""
+    common = skeleton(name)
+    only_one(connection, f"name {common}")
+    alike = select(agents).where(agents.c.skeleton == common)
+    return connection.execute(alike.order_by(agents.c.name != name, agents.c.created_at, agents.c.id)).first()
+
+
+def insert_agent(writing: Writing, agent_id: str, name: str, *, house: bool) -> None:
+    """Store a new agent, whose name `namesake` has not found."""
+    row = {"id": agent_id, "name": name, "skeleton": skeleton(name), "house": house, "created_at": writing.now}
+    writing.connection.execute(insert(agents).values(row))
 
 
 def _require_welcome(writing: Writing, request: AgentRequest, caller: Caller | None, agent_id: str) -> None:

@@ -17,6 +17,7 @@ from server.failpoints import Failpoint
 from server.ops.metrics import Metrics
 from server.services.courses import Course, Courses
 from server.services.limits import Limits
+from server.services.long_strokes import LongStrokes
 from server.services.physics_pool import PhysicsPool
 from server.services.presence import Presence
 from server.services.pulse import Pulse
@@ -61,6 +62,7 @@ class Context:
     seen: SeenGames = field(default_factory=SeenGames)
     limits: Limits = field(init=False)
     physics: PhysicsPool = field(init=False)
+    long_strokes: LongStrokes = field(default_factory=LongStrokes)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
     courses: Courses = field(default_factory=Courses)
     failpoint: Failpoint = field(default_factory=lambda: failpoints.parse(""))

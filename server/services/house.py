@@ -16,7 +16,8 @@ from referee.play import nanoseconds
 from referee.wire import MatchRequest
 from referee.wire.agents import AgentName
 from server.errors import SettingsError, WrongStatus, invalid_field
-from server.services.agents import renewed_token
+from server.security.names import skeleton
+from server.services.agents import insert_agent, namesake, renewed_token
 from server.services.context import Context, Writing
 from server.services.live import hold_match
 from server.store.locks import only_one
@@ -42,9 +43,8 @@ class HouseBot:
 def parse(text: str) -> tuple[HouseBot, ...]:
     """The bots of `random;greedy;mine=stdio:perl mine.pl`; raises `SettingsError`."""
     bots = tuple(_bot(entry.strip()) for entry in re.split("[;\n]", text) if entry.strip())
-    names = [bot.name for bot in bots]
-    if len(set(names)) != len(names):
-        raise SettingsError(f"house_bots is {text!r}; allowed: every name once")
+    if len({skeleton(bot.name) for bot in bots}) != len(bots):
+        raise SettingsError(f"house_bots is {text!r}; allowed: every name once, and none that looks like another")
     return bots
 
 
@@ -62,18 +62,15 @@ def _bot(entry: str) -> HouseBot:
 def enter(context: Context, bot: HouseBot) -> str:
     """The bot's id, registered if need be; raises `SettingsError` when its name is somebody else's."""
     with context.writing() as writing:
-        only_one(writing.connection, f"name {bot.name}")
-        row = writing.connection.execute(select(agents).where(agents.c.name == bot.name)).one_or_none()
+        row = namesake(writing.connection, bot.name)
         if row is None:
             agent_id = f"agent_{secrets.token_hex(8)}"
-            entry = {"id": agent_id, "name": bot.name, "house": True, "created_at": writing.now}
-            writing.connection.execute(insert(agents).values(entry))
+            insert_agent(writing, agent_id, bot.name, house=True)
             return agent_id
-        if not row.house:
+        if not (row.house and row.name == bot.name):
             allowed = f"another name for it, such as house-{bot.name}={bot.agent}"
-            raise SettingsError(
-                f"house_bots has {bot.name!r}, the name of an agent that registered; allowed: {allowed}"
-            )
+            whose = f"the name of an agent that registered, {row.name!r}, or one that looks like it"
+            raise SettingsError(f"house_bots has {bot.name!r}, {whose}; allowed: {allowed}")
         return str(row.id)
 
 

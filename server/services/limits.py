@@ -19,6 +19,7 @@ class Limits:
 
     callers: Rates
     addresses: Rates
+    registrations: Rates
     streams: Places
     polls: Places
 
@@ -28,6 +29,7 @@ class Limits:
         return cls(
             callers=Rates(settings.token_rate, settings.token_burst, time),
             addresses=Rates(settings.address_rate, settings.address_burst, time),
+            registrations=Rates(settings.registration_rate, settings.registration_burst, time),
             streams=Places("streams", settings.streams),
             polls=Places("polls", settings.polls),
         )
@@ -43,6 +45,10 @@ class Limits:
     def count_stranger(self, address: str) -> None:
         """Count a request without a valid token; raises `TooManyRequests`."""
         self.addresses.take(_address(address))
+
+    def count_registration(self, address: str) -> None:
+        """Count an agent that somebody who is no organiser registers; raises `TooManyRequests`."""
+        self.registrations.take(f"registrations of {_address(address)}")
 
     def watching(self, caller: Caller | None, address: str) -> AbstractContextManager[None]:
         """A place to watch from, for the length of a stream; raises `TooManyOpen`."""

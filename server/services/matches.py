@@ -13,7 +13,7 @@ from referee.record import this_engine
 from referee.wire import AcceptRequest, MatchList, MatchRequest, MatchStatus, MatchView
 from server.errors import Forbidden, WrongStatus, invalid_field, invalid_physics
 from server.security.callers import Caller, Scope
-from server.services import draws, games, house, match_views, notices, pages
+from server.services import challenges, draws, games, house, match_views, notices, pages
 from server.services.commands import Answer, Command, once, parse
 from server.services.context import Context, Writing
 from server.services.live import ABORTED, RUNNING, find_match, hold_match
@@ -112,10 +112,12 @@ def _created(writing: Writing, command: Command) -> Answer:
     request = parse(command, MatchRequest)
     _require_right(request, command.caller)
     _require_agents(writing.connection, request)
+    challenges.require_usual_table(request, command.caller)
     _require_start(request)
     challenger = None if command.caller.is_organiser else command.caller.id
     house.require_terms(writing, request, challenger)
     house.require_no_other(writing, request, challenger)
+    challenges.require_few(writing, request, challenger)
     match = insert_match(writing, request, challenger, foreseeable=request.seed is not None)
     if match.challenger is None or house.has_place(writing, match):
         match = begin_or_wait(writing, match)

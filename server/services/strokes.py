@@ -6,24 +6,26 @@ game's seed and the stroke's index alone, so that a shot simulated twice is the 
 
 import contextlib
 import logging
+import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from sqlalchemy import Connection, insert
 
-from physics import PhysicsError
+from physics import PhysicsError, Status
 from referee import Action, Decision, Refusal
 from referee.play import Refused, Stroke, play_stroke
 from referee.play.clock import SECOND_NS
-from referee.record import Chain, stroke_entry
-from referee.wire import DecisionRequest, Fault, ShotRequest, StrokeAnswer, StrokeDetail, shown
+from referee.record import Chain, canonical, stroke_entry
+from referee.wire import DecisionRequest, EventView, Fault, ShotRequest, StrokeAnswer, StrokeDetail, View, shown
 from server import errors
 from server.security.callers import Caller
 from server.services import games, simulations
 from server.services.commands import Answer, Command, keep, parse, recall
 from server.services.context import Context, Writing
 from server.services.live import LiveGame
+from server.services.long_strokes import MOST_EVENTS, IsLong
 from server.store.locks import hold_match_of
 from server.store.tables import moves
 
@@ -34,9 +36,9 @@ Move = Callable[[Connection], Command]
 """A move as it came in: a command once its sender has been looked up, which may raise `Unauthorized`."""
 
 
-def shoot(context: Context, game_id: str, move: Move) -> Answer:
-    """Play a stroke."""
-    return _act(context, game_id, move, lambda command: _Asked.of(parse(command, ShotRequest)))
+def shoot(context: Context, game_id: str, move: Move, may_be_long: bool) -> Answer:
+    """Play a stroke; raises `IsLong` for one of very many events unless it may have them."""
+    return _act(context, game_id, move, lambda command: _Asked.of(parse(command, ShotRequest)), may_be_long)
 
 
 def decide(context: Context, game_id: str, move: Move) -> Answer:
@@ -61,15 +63,17 @@ class _Asked:
         return cls(request.to_action(), request.simulated)
 
 
-def _act(context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked]) -> Answer:
+def _act(
+    context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked], may_be_long: bool = False
+) -> Answer:
     """Again from the beginning as long as somebody else changes the game meanwhile: they got on with it."""
     context.pulse.require(context.time.now())
     while True:
         with contextlib.suppress(games.Moved):
-            return _tried(context, game_id, move, read)
+            return _tried(context, game_id, move, read, may_be_long)
 
 
-def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked]) -> Answer:
+def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked], may_be_long: bool) -> Answer:
     with context.database.reading() as connection:
         command = move(connection)
         live = _found(context, connection, game_id, command.caller)
@@ -81,7 +85,7 @@ def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command],
     with _told_why():
         asked = read(command)
         simulations.require_left(live, seat, asked.simulated)  # before any noise is drawn
-        stroke = play_stroke(live.rules, live.game, asked.action, live.seeds, live.fixture.noise)
+        stroke = _played(live, asked.action, may_be_long)
     end = games.TurnEnd(live.charge_of_action(command.arrived), games.next_move(live))
     told = _Told.of(live, stroke, end)
     context.failpoint("shot-simulated")
@@ -97,6 +101,18 @@ def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command],
     context.wakeups.notify(live.agents)
     context.failpoint("shot-woken")
     return answer
+
+
+def _played(live: LiveGame, action: Action, may_be_long: bool) -> Stroke:
+    """The stroke, as the rules' limits have it; raises `IsLong`, having gone no further than an ordinary one would."""
+    rules = live.rules
+    if may_be_long or rules.limits.events <= MOST_EVENTS:
+        return play_stroke(rules, live.game, action, live.seeds, live.fixture.noise)
+    ordinary = replace(rules, limits=replace(rules.limits, events=MOST_EVENTS))
+    stroke = play_stroke(ordinary, live.game, action, live.seeds, live.fixture.noise)
+    if stroke.result is not None and stroke.result.status is Status.EVENT_LIMIT:
+        raise IsLong
+    return stroke
 
 
 def _found(context: Context, connection: Connection, game_id: str, caller: Caller) -> LiveGame:
@@ -185,26 +201,56 @@ class _Told:
     """A stroke in words: all of it that does not depend on when it is stored, put together while others may write.
 
     Attributes:
-        detail: as players are told. row: of `moves`.
+        detail: as players are told, without the events; text: the same as JSON, with them. row: of `moves`.
         chain: of the record, the stroke's line the last.
     """
 
     detail: StrokeDetail
+    text: str
     row: dict[str, Any]
     chain: Chain
 
     @classmethod
     def of(cls, live: LiveGame, stroke: Stroke, end: games.TurnEnd) -> "_Told":
         number = games.next_move(live)
-        detail, chain = StrokeDetail.of(stroke, number), Chain(live.row.head)
+        detail, chain = StrokeDetail.of(stroke, number, events=False), Chain(live.row.head)
+        told, recorded = _events(stroke)
         row = {
             "game_id": live.id,
             "number": number,
             "seat": stroke.seat,
             "stroke": detail.model_dump(mode="json", exclude={"events"}),
-            "line": chain.add(stroke_entry(stroke, number, end.charge.charged_ns)),
+            "line": chain.add(stroke_entry(stroke, number, end.charge.charged_ns, events=False), recorded),
         }
-        return cls(detail, row, chain)
+        return cls(detail, detail.model_dump_json().removesuffix(_NO_EVENTS) + told, row, chain)
+
+
+def _events(stroke: Stroke) -> tuple[str, dict[str, str]]:
+    """A stroke's events in words: the end of a `StrokeDetail`'s JSON, and the member of the record's line.
+
+    One by one, and those of a long stroke with pauses: in between, other threads have the interpreter.
+    """
+    if stroke.result is None:
+        return _NO_EVENTS, {}
+    told, recorded = [], []
+    rests = stroke.result.n_events > MOST_EVENTS
+    began = time.thread_time()
+    for number, event in enumerate(stroke.result.events):
+        values = event.to_dict()
+        told.append(EventView.model_validate(values).model_dump_json())
+        recorded.append(canonical(values))
+        if rests and number % EVENTS_AT_ONCE == 0:
+            time.sleep(REST * (time.thread_time() - began))
+            began = time.thread_time()
+    return f'"events":[{",".join(told)}]}}', {"events": f"[{','.join(recorded)}]"}
+
+
+_NO_EVENTS: Final = '"events":[]}'
+"""How the JSON of a `StrokeDetail` without events ends."""
+EVENTS_AT_ONCE: Final = 10
+"""A millisecond or two of the interpreter."""
+REST: Final = 3.0
+"""Times as long as a long stroke's events kept the interpreter, it is left to others."""
 
 
 def _stored(
@@ -216,8 +262,14 @@ def _stored(
     writing.connection.execute(_MOVE, told.row | {"created_at": writing.now})
     writing.context.failpoint("shot-moved")
     view = live.view_since((told.detail,), stroke.seat, writing.now)  # the player's last stroke is this one
-    message = StrokeAnswer(game=live.id, stroke=told.detail, view=view, clocks=view.clocks)
-    return live, Answer.of(200, message, etag=f'"{live.row.version}"')
+    return live, _answer(live, told, view)
+
+
+def _answer(live: LiveGame, told: _Told, view: View) -> Answer:
+    """A `StrokeAnswer` in JSON. Its events, which may be megabytes, were written before others had to wait."""
+    rest = StrokeAnswer.model_construct(view=view, clocks=view.clocks).model_dump_json()
+    body = f'{{"game":"{live.id}","stroke":{told.text},{rest.removeprefix("{")}'
+    return Answer(200, body.encode(), {"etag": f'"{live.row.version}"'})
 
 
 _MOVE: Final = insert(moves)

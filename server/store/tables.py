@@ -40,10 +40,12 @@ agents = Table(
     metadata,
     Column("id", Identifier, primary_key=True),
     Column("name", String(64), nullable=False, unique=True),
+    Column("skeleton", String(128), nullable=False, server_default="", index=True),
     Column("house", Boolean, nullable=False),
     Column("created_at", BigInteger, nullable=False),
 )
-"""`house`: the server runs it itself."""
+"""`skeleton`: what names that look alike have in common (`server.security.names`); agents of version 0.1.0 may share
+one. `house`: the server runs it itself."""
 
 house = Table(
     "house",

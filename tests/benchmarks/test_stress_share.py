@@ -8,6 +8,7 @@ import pytest
 
 import physics
 from benchmarks import hostile, smallest, soundness, stress
+from referee import Limits
 
 SEED = 5
 
@@ -19,6 +20,8 @@ def test_hostile_shots_end_at_rest_inside_the_table_without_overlap(kind):
     assert not tally.failures, tally.failures[0]
     assert tally.shots == shots
     assert tally.flights == min(flights, tally.status["AT_REST"])
+    if kind not in ("limits of a shot", "limits of the table"):
+        assert tally.most_events < Limits().events, "a stroke of a game would be ended"
 
 
 @pytest.mark.parametrize("kind", hostile.CLASSES)

@@ -208,8 +208,9 @@ def scripted(view: dict[str, Any], chance: random.Random) -> dict[str, Any]:
 
 
 def register(server: Running) -> Player:
+    """A fresh agent. The organiser registers it: the tests are one address, which may register so many a minute."""
     name = f"player {next(_names)} {uuid.uuid4().hex[:8]}"
-    response = server.request("POST", "/v1/agents", json={"name": name})
+    response = server.request("POST", "/v1/agents", ORGANISER_TOKEN, json={"name": name})
     assert response.status_code == 201, response.text
     made = response.json()
     return Player(server, made["agent"]["id"], made["token"])

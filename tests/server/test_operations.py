@@ -145,7 +145,7 @@ def test_ready_names_engine_self_test_database_and_schema(server):
     ready = response.json()
     assert ready["engine"] == this_engine().digest
     assert ready["self_test"] == self_test().digest
-    assert ready["schema"] == "0002"
+    assert ready["schema"] == "0003"
     assert ready["database"] in ("sqlite", "postgresql")
 
 
