@@ -103,6 +103,7 @@ matches = Table(
     Column("paired_racks", Boolean, nullable=False),
     Column("given_breaker", Integer),
     Column("engine", String(64), nullable=False),
+    Column("engine_version", String(64), nullable=False),
     Column("commitment", String(64), nullable=False),
     Column("client_seed_0", String(64)),
     Column("client_seed_1", String(64)),
@@ -113,9 +114,9 @@ matches = Table(
     Column("started_at", BigInteger),
     Column("ended_at", BigInteger),
 )
-"""`seed`, `rack_seed` (null: the same): the secrets. `engine`: the digest of what the match is committed to.
-`opening`: how long the players may add seeds; `opens_until`: when the first game begins whoever has not, null
-unless the match waits for that. `first_breaker`: known when the first game begins."""
+"""`seed`, `rack_seed` (null: the same): the secrets. `engine`, `engine_version`: digest and version of the engine that
+the match is committed to. `opening`: how long the players may add seeds; `opens_until`: when the first game begins
+whoever has not, null unless the match waits for that. `first_breaker`: known when the first game begins."""
 
 games = Table(
     "games",
