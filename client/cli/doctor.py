@@ -73,7 +73,7 @@ def _kernel_cache() -> dict[str, Any]:
 
 
 def _record_engine() -> dict[str, str]:
-    """What records made here name as their engine, and `pooliad replay verify` asks for."""
+    """What records made here name as their engine."""
     from referee.record import this_engine
 
     return this_engine().to_dict()

@@ -63,7 +63,8 @@ def verify(
     """Play a record again from its secrets and actions, compare every bit, and check chain and signature.
 
     Leaves with 1 and names the first difference when the record is not what really follows, a line does not
-    continue the one before it, or the signature is not the given key's.
+    continue the one before it, or the signature is not the given key's. A record that another engine made is
+    played again too, and said to be that one's.
     """
     from client.cli.keys import read_keys
     from referee.record import verify_record

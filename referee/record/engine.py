@@ -1,6 +1,5 @@
 """Which engine made a record: the version, and a digest of the code that decides what happens."""
 
-import hashlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -9,18 +8,22 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from typing import Any, Self
 
+from referee.record.sources import digest_of_sources
+
 _DECIDING = ("physics", "referee.game", "referee.rules", "referee.play")
-"""Packages whose code a game's course depends on. Any edit there makes another engine: stricter than need be,
-but a record must never be called false because of a change in the engine, nor true in spite of one."""
+"""Packages whose code a game's course depends on. Whatever that code says otherwise than before makes another engine:
+stricter than need be, but a record must never be called false because of a change in the engine, nor true in spite
+of one."""
 
 
 @dataclass(frozen=True, slots=True)
 class Engine:
-    """An engine.
+    """An engine. Two with the same digest are the same one.
 
     Attributes:
-        version: of the distribution ``pooliad``.
-        digest: SHA-256 over the deciding packages' source files, hex.
+        version: of the distribution ``pooliad`` it came with.
+        digest: SHA-256 (hex) of what the deciding packages' sources say (``digest_of_sources``); of version 0.1.0 it is
+            that of their bytes.
     """
 
     version: str
@@ -28,6 +31,10 @@ class Engine:
 
     def __str__(self) -> str:
         return f"pooliad {self.version} (engine {self.digest[:12]})"
+
+    def is_same(self, other: "Engine") -> bool:
+        """Whether the two decide alike."""
+        return self.digest == other.digest
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values, for the record's header."""
@@ -48,11 +55,12 @@ class Engine:
 @cache
 def this_engine() -> Engine:
     """The engine that is running."""
-    total = hashlib.sha256()
-    for package in _DECIDING:
-        for name, source in sorted(_sources(files(package), package)):
-            total.update(f"{name}\0{hashlib.sha256(source).hexdigest()}\n".encode())
-    return Engine(_version(), total.hexdigest())
+    return Engine(_version(), digest_of_sources(deciding_sources()))
+
+
+def deciding_sources() -> dict[str, bytes]:
+    """The files that the digest covers, by the name of their module."""
+    return {name: source for package in _DECIDING for name, source in _sources(files(package), package)}
 
 
 def _version() -> str:
@@ -63,10 +71,10 @@ def _version() -> str:
         return "not installed"
 
 
-def _sources(folder: Traversable, name: str) -> Iterator[tuple[str, bytes]]:
-    """(dotted name, bytes) of every Python file, line endings made equal."""
+def _sources(folder: Traversable, package: str) -> Iterator[tuple[str, bytes]]:
+    """(module, bytes) of every Python file."""
     for entry in folder.iterdir():
         if entry.name.endswith(".py"):
-            yield f"{name}.{entry.name}", entry.read_bytes().replace(b"\r\n", b"\n")
+            yield f"{package}.{entry.name.removesuffix('.py')}".removesuffix(".__init__"), entry.read_bytes()
         elif entry.is_dir() and entry.name.isidentifier():
-            yield from _sources(entry, f"{name}.{entry.name}")
+            yield from _sources(entry, f"{package}.{entry.name}")

@@ -8,7 +8,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 from physics.errors import PhysicsError
 from referee.errors import InvalidGame, RefereeError
@@ -30,6 +30,8 @@ class Verdict(StrEnum):
 
     VERIFIED = "verified"
     """Everything follows from the secrets and the actions, to the last bit; chain and signature are whole."""
+    SAME_GAME = "same_game"
+    """Another engine made it, and this one gives the same game, to the last bit; chain and signature are whole."""
     DIFFERENT = "different"
     """Something does not follow; the difference says what."""
     BROKEN_CHAIN = "broken_chain"
@@ -37,7 +39,7 @@ class Verdict(StrEnum):
     BAD_SIGNATURE = "bad_signature"
     """The seal is not what the given keys sign; its problem says why."""
     OTHER_ENGINE = "other_engine"
-    """The record was made with another engine, which is needed to verify it."""
+    """Another engine made the record, and this one gives another game or cannot read it: that engine is needed."""
     MALFORMED = "malformed"
     """This is not a whole, well-formed record."""
 
@@ -53,10 +55,10 @@ class Verification:
         budget: of simulated shots that the terms grant, None without one. simulated: how many were, by seat: as the
             server counted and the players declared.
         difference: the first one.
-        needs: the engine that is needed, when it is another than the one that is running.
+        needs: the engine that made the record, when it is another than the one that is running.
         chain: where the chain is broken; None if it is whole.
         seal: what is known of the signature; None for a malformed record.
-        problem: why the record is malformed, in words.
+        problem: why the record is malformed, or cannot be read by this engine, in words.
     """
 
     verdict: Verdict
@@ -72,8 +74,8 @@ class Verification:
 
     @property
     def ok(self) -> bool:
-        """Whether the record is true."""
-        return self.verdict is Verdict.VERIFIED
+        """Whether all of the record follows, with the engine that made it or with this one."""
+        return self.verdict in (Verdict.VERIFIED, Verdict.SAME_GAME)
 
     def __str__(self) -> str:
         parts = (self._finding(), self._counted(), self.chain and f"broken chain: {self.chain}", self.seal)
@@ -92,11 +94,19 @@ class Verification:
         if self.verdict is Verdict.MALFORMED:
             return f"malformed: {self.problem}"
         if self.needs is not None:
-            return f"this record needs {self.needs}; this is {this_engine()}"
+            return f"made by {self.needs}; this engine, {this_engine()}, {self._of_another()}"
         if self.difference is not None:
             return f"different after {self.strokes} good lines: {self.difference}"
         words = f"{self.strokes} strokes and decisions follow from the secrets, bit for bit"
         return f"verified: {words}" if self.ok else f"not verified, although {words}"
+
+    def _of_another(self) -> str:
+        """What this engine made of another's record."""
+        if self.problem is not None:
+            return f"cannot read it: {self.problem}"
+        if self.difference is not None:
+            return f"differs at {self.difference}"
+        return f"gives the same game, bit for bit ({self.strokes} strokes and decisions)"
 
 
 def verify_record(
@@ -132,13 +142,13 @@ def verify_record(
 def _replayed(record: Record) -> Verification:
     """What the game shows when it is played again, chain and seal left aside."""
     engine = _read("engine", Engine.from_dict, record.header.get("engine"), 1)
-    if engine != this_engine():
-        return Verification(Verdict.OTHER_ENGINE, needs=engine)
+    if engine.is_same(this_engine()):
+        return _Replay.of(record).run()
     try:
-        header = Header.from_dict(record.header)
+        found = _Replay.of(record).run()
     except (RefereeError, PhysicsError, ValueError) as error:
-        raise InvalidRecord("line 1", record.header.get("game"), f"must be a header: {error}") from None
-    return _Replay(record, header).run()
+        return Verification(Verdict.OTHER_ENGINE, needs=engine, problem=str(error))
+    return replace(found, verdict=Verdict.SAME_GAME if found.ok else Verdict.OTHER_ENGINE, needs=engine)
 
 
 class _Replay:
@@ -149,6 +159,15 @@ class _Replay:
         self.header = header
         self.seeds = _seeds(record.end, header, len(record.lines) - 1)
         self.charges: list[tuple[int, int]] = []
+
+    @classmethod
+    def of(cls, record: Record) -> Self:
+        """The replay of a record; raises InvalidRecord if its header is none that this engine reads."""
+        try:
+            header = Header.from_dict(record.header)
+        except (RefereeError, PhysicsError, ValueError) as error:
+            raise InvalidRecord("line 1", record.header.get("game"), f"must be a header: {error}") from None
+        return cls(record, header)
 
     def run(self) -> Verification:
         """Verify the whole record."""

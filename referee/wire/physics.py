@@ -1,10 +1,12 @@
 """The physics alone, for any language: simulate, simulate a batch, least elevation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import ConfigDict, Field
 from pydantic.config import JsonDict
+from typing_extensions import TypedDict  # pydantic wants this one below Python 3.12
 
+from physics.constants import N_BALLS
 from referee.wire.outcomes import EventView
 from referee.wire.shots import ShotParameters
 from referee.wire.values import Balls, Flag, Identifier, Integer, Message, Number, Request, TableValues
@@ -40,14 +42,52 @@ class SimulateRequest(Request):
     game: GameOfCaller = None
 
 
+Ordinal = Annotated[Integer, Field(description="An event's `index`; -1 when it did not happen.")]
+PerBall = Annotated[
+    tuple[Integer, ...], Field(min_length=N_BALLS, max_length=N_BALLS, description="16 numbers, ball 0 first.")
+]
+
+
+class FactsView(TypedDict):
+    """What rules need to know about a shot (``physics.Facts``).
+
+    Attributes:
+        status: as in the answer. n_events, duration: likewise.
+        crossed_head_string: the event from which on the cue ball's centre was first not behind the head string.
+        crossed_before_contact: the same, but before the first contact.
+        first_contact: the collision in which the cue ball struck this ball first.
+        cushion: the first collision of each ball with a cushion. cushion_after_contact: after the first contact.
+        pocketed: the event by which each ball went down. pocket: which pocket, 0 to 5, or -1.
+        off_table: the event by which the ball left the table.
+        frozen_to_cushion, frozen_to_cue_ball: 1 where the ball touched a cushion, the cue ball, at the start; else 0.
+        first_contact_cue_ball: (x, y) m, the cue ball's centre at first contact; nulls if there was none.
+    """
+
+    status: str
+    n_events: Integer
+    crossed_head_string: Ordinal
+    crossed_before_contact: Ordinal
+    first_contact: PerBall
+    cushion: PerBall
+    cushion_after_contact: PerBall
+    pocketed: PerBall
+    pocket: PerBall
+    off_table: PerBall
+    frozen_to_cushion: PerBall
+    frozen_to_cue_ball: PerBall
+    duration: Number
+    first_contact_cue_ball: tuple[Number | None, Number | None]
+
+
 class SimulateAnswer(Message):
     """What the shot did.
 
     Attributes:
         status: by name; ``at_rest`` is the regular end.
         reason: the status in words.
-        duration: s. balls: at the end.
+        duration: s. n_events: the cue strike included. balls: those on the table at the end, m.
         facts: what rules need, each with the ordinal of the event that proves it (docs/physics.md).
+        events: what happened, in order; null without a trace.
     """
 
     status: str
@@ -55,7 +95,7 @@ class SimulateAnswer(Message):
     duration: Number
     n_events: Integer
     balls: Balls
-    facts: dict[str, Any]
+    facts: FactsView
     events: tuple[EventView, ...] | None
 
 
@@ -85,7 +125,12 @@ class BatchRequest(Request):
 
 
 class BatchRow(Message):
-    """One shot of a batch: where the balls lie, and the pocket of each that went down."""
+    """One shot of a batch.
+
+    Attributes:
+        status: by name; ``at_rest`` is the regular end. duration: s. n_events: the cue strike included.
+        balls: those on the table at the end, m. pocketed: the pocket, 0 to 5, of each ball that went down.
+    """
 
     status: str
     duration: Number

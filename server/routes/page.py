@@ -1,4 +1,4 @@
-"""The spectator's page: its files, held in memory, with the headers that keep everything else out."""
+"""The spectator's page and the reference of the HTTP interface, with the headers that keep everything else out."""
 
 import hashlib
 import json
@@ -8,10 +8,11 @@ from functools import cache
 from importlib.resources import files
 from typing import Final
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, FastAPI, Request, Response
 
 from referee.game import RULES
 from server.errors import NotFound
+from server.reference import reference
 
 router = APIRouter(include_in_schema=False)
 
@@ -69,6 +70,17 @@ def home(request: Request) -> Response:
     return _served(request, HOME)
 
 
+@router.get("/docs")
+def interface(request: Request) -> Response:
+    """The OpenAPI document to read in a browser."""
+    return _answered(request, _interface(request.app))
+
+
+@cache
+def _interface(app: FastAPI) -> File:
+    return File.of("docs.html", reference(app.openapi()).encode())
+
+
 @router.get("/web/{name}")
 def part(name: str, request: Request) -> Response:
     """A script, the style sheet, the rules in words."""
@@ -79,6 +91,11 @@ def _served(request: Request, name: str) -> Response:
     file = page_files().get(name)
     if file is None:
         raise NotFound(f"the page has no file {name!r}")
+    return _answered(request, file)
+
+
+def _answered(request: Request, file: File) -> Response:
+    """A file, or that the asker has it already."""
     headers = HEADERS | {"ETag": file.etag}
     if request.headers.get("if-none-match") == file.etag:
         return Response(status_code=304, headers=headers)

@@ -9,7 +9,7 @@ from physics import Table
 from referee.game import Game
 from referee.play import GameSeeds, MatchSeed, NoiseModel, client_seeds_from_hex, seed_from_hex
 from referee.play.clock import nanoseconds
-from referee.record import MatchTerms
+from referee.record import Engine, MatchTerms
 from referee.rules import EightBall
 from referee.wire import MatchRequest, Position
 from server.store.rows import GameRow
@@ -38,6 +38,7 @@ def columns(request: MatchRequest, match_id: str) -> dict[str, Any]:
         "paired_racks": request.racks.paired,
         "given_breaker": request.first_breaker,
         "engine": terms.engine.digest,
+        "engine_version": terms.engine.version,
         "commitment": terms.commitment_to(seed),
         "opening": nanoseconds(request.client_seed_seconds),
     }
@@ -54,6 +55,7 @@ def terms_of(match: Row[Any]) -> MatchTerms:
         paired_racks=match.paired_racks,
         first_breaker=match.given_breaker,
         position=position_of(match),
+        engine=Engine(match.engine_version, match.engine),
     )
 
 

@@ -106,6 +106,7 @@ matches = Table(
     Column("paired_racks", Boolean, nullable=False),
     Column("given_breaker", Integer),
     Column("engine", String(64), nullable=False),
+    Column("engine_version", String(64), nullable=False),
     Column("commitment", String(64), nullable=False),
     Column("client_seed_0", String(64)),
     Column("client_seed_1", String(64)),
@@ -117,8 +118,8 @@ matches = Table(
     Column("ended_at", BigInteger),
 )
 """`seed`, `rack_seed` (null: the same): the secrets; `foreseeable`: `seed` was not drawn here, or follows from one that
-was not. `engine`: the digest of what the match is committed to.
-`opening`: how long the players may add seeds; `opens_until`: when the first game begins whoever has not, null
+was not. `engine`, `engine_version`: digest and version of the engine that the match is committed to.
+`opening`: how long the players may add seeds; `opens_until`: when the first game begins at the latest, null
 unless the match waits for that. `first_breaker`: known when the first game begins."""
 
 games = Table(

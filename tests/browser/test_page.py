@@ -163,3 +163,16 @@ def test_colours_are_chosen_and_kept(page, server):
     page.get_by_role("button", name="Dark colours").click()
     page.reload()
     assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+
+
+def test_the_reference_of_the_interface_is_read_in_a_browser(new_page, server):
+    """At /docs, on a phone, under the page's policy; `new_page` sees requests to other hosts and breaches."""
+    page = new_page(390)
+    page.goto(f"{server.url}/docs")
+    page.get_by_role("link", name="POST /v1/simulate", exact=True).click()
+    page.get_by_role("heading", name="POST /v1/simulate Simulate one shot").wait_for()
+    page.locator("#post-v1-simulate").get_by_role("link", name="SimulateAnswer").click()
+    page.locator("#SimulateAnswer").get_by_role("link", name="FactsView").click()
+    assert page.locator("#FactsView").get_by_text("first_contact_cue_ball", exact=True).first.is_visible()
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    assert violations(page) == []

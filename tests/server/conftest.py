@@ -32,6 +32,7 @@ DATABASES = {
     "test_whole_match": BOTH,
     "test_several_processes": ("postgresql",),
     "test_unstorable": BOTH,
+    "test_upgrade": BOTH,
 }
 """The databases that a module's tests run on; SQLite unless told."""
 ORGANISER_TOKEN = secrets.token_urlsafe(32)
@@ -319,6 +320,12 @@ def table_at() -> Callable[..., Table]:
 def player_at() -> Callable[[Running], Player]:
     """A fresh agent at a server of the test's own."""
     return register
+
+
+@pytest.fixture(scope="session")
+def player_with() -> Callable[[Running, str, str], Player]:
+    """An agent, or an organiser, that is there already: by id and token."""
+    return lambda server, id, token: Player(server, id, token)  # noqa: A006 - as in the data
 
 
 @pytest.fixture(scope="session")

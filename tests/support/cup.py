@@ -1,7 +1,7 @@
 """A tournament over HTTP whose players do what a test says."""
 
 import hashlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 SEEDS = {name: hashlib.sha256(name.encode()).hexdigest() for name in ("ann", "bob", "cat", "dan")}
@@ -27,6 +27,14 @@ class Cup:
         response = organiser.post("/v1/tournaments", {"terms": self.terms, "agents": agents})
         assert response.status_code == 201, response.text
         self.id = response.json()["id"]
+
+    @classmethod
+    def of(cls, organiser: Any, players: Mapping[str, Any], tournament_id: str) -> "Cup":
+        """An event that is there already."""
+        cup = cls.__new__(cls)
+        cup.organiser, cup.players, cup.id = organiser, dict(players), tournament_id
+        cup.terms = cup.read()["terms"]
+        return cup
 
     def at(self, server: Any) -> "Cup":
         """The same event, everybody in it at another server."""

@@ -19,6 +19,7 @@ from referee.play import MatchSeed, NoiseModel, play_stroke, start_game
 from referee.play.local import play_game
 from referee.record import (
     Chain,
+    Engine,
     Header,
     InvalidRecord,
     MatchTerms,
@@ -224,13 +225,73 @@ def test_a_game_cut_short_has_no_such_end():
     assert difference.derived == "no end: the game goes on"
 
 
-@pytest.mark.parametrize(("key", "value"), [("version", "99.0"), ("digest", "f" * 64)])
-def test_another_engines_record_says_which_one_it_needs(key, value):
-    verification = verify_record(chained(json.loads(line) for line in tampered((0, "engine", key), value)))
-    assert verification.verdict is Verdict.OTHER_ENGINE
-    assert verification.needs != this_engine()
-    assert value[:12] in str(verification)
-    assert str(this_engine()) in str(verification)
+OTHER = Engine("99.0", "f" * 64)
+
+
+def made_by_another(change=lambda objects: None):
+    """The true game as another engine would have recorded it, committed to that engine; then changed and chained."""
+    objects = parsed()
+    terms = replace(game().header.terms, engine=OTHER)
+    objects[0] |= {"engine": OTHER.to_dict(), "commitment": terms.commitment(game().seeds, 0)}
+    change(objects)
+    return chained(objects)
+
+
+def test_a_record_of_another_engine_that_follows_is_the_same_game_and_not_called_verified():
+    found = verify_record(made_by_another())
+    assert (found.verdict, found.ok, found.needs) == (Verdict.SAME_GAME, True, OTHER)
+    assert found.outcome == game().outcome
+    words = f"made by {OTHER}; this engine, {this_engine()}, gives the same game, bit for bit"
+    assert str(found).startswith(words)
+    assert "verified" not in str(found)
+
+
+def test_a_record_of_another_engine_that_does_not_follow_says_where_it_differs():
+    """Whether the record or the engine differs nobody can tell without that engine: it is called neither."""
+
+    def change(objects):
+        objects[BREAK]["events"][20]["time"] = nudge(objects[BREAK]["events"][20]["time"])
+
+    found = verify_record(made_by_another(change))
+    assert (found.verdict, found.ok, found.needs) == (Verdict.OTHER_ENGINE, False, OTHER)
+    assert (found.difference.line, found.difference.field) == (2, "events[20].time")
+    assert str(found).startswith(
+        f"made by {OTHER}; this engine, {this_engine()}, differs at line 2, stroke 0, event 20"
+    )
+
+
+def test_naming_another_engine_does_not_hide_what_was_committed_to():
+    """The commitment covers the engine: a record whose engine is exchanged afterwards is not the same game."""
+
+    def change(objects):
+        objects[0]["engine"]["digest"] = "e" * 64
+
+    found = verify_record(made_by_another(change))
+    assert found.verdict is Verdict.OTHER_ENGINE
+    assert found.difference.field == "commitment"
+
+
+@pytest.mark.parametrize("line", [0, BREAK, END], ids=["header", "stroke", "end"])
+def test_a_record_of_another_engine_that_cannot_be_read_here_is_not_called_malformed(line):
+    """It may be of a form that a later version has."""
+
+    def change(objects):
+        for name in ("action", "players", "outcome"):
+            objects[line].pop(name, None)
+
+    found = verify_record(made_by_another(change))
+    assert (found.verdict, found.ok, found.needs) == (Verdict.OTHER_ENGINE, False, OTHER)
+    assert "cannot read it: line" in str(found)
+
+
+def test_another_version_with_the_same_engine_is_no_other_engine():
+    """Two versions may differ in comments alone; what they record is verified by both."""
+    same = replace(this_engine(), version="99.0")
+    objects = parsed()
+    objects[0]["engine"] = same.to_dict()
+    assert verify_record(chained(objects)).difference.field == "commitment"
+    objects[0]["commitment"] = replace(game().header.terms, engine=same).commitment(game().seeds, 0)
+    assert verify_record(chained(objects)).verdict is Verdict.VERIFIED
 
 
 @pytest.mark.parametrize(
