@@ -30,6 +30,7 @@ DATABASES = {
     "test_tournaments": BOTH,
     "test_whole_match": BOTH,
     "test_several_processes": ("postgresql",),
+    "test_stored_answers": BOTH,
     "test_unstorable": BOTH,
 }
 """The databases that a module's tests run on; SQLite unless told."""

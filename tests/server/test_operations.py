@@ -18,6 +18,7 @@ from server.ops.metrics import Metrics
 from server.routes.health import readiness
 from server.services import warmup
 from server.settings import settable
+from server.store.upgrade import head
 
 PAGE = (ROOT / "docs" / "operations.md").read_text(encoding="utf-8")
 
@@ -145,7 +146,7 @@ def test_ready_names_engine_self_test_database_and_schema(server):
     ready = response.json()
     assert ready["engine"] == this_engine().digest
     assert ready["self_test"] == self_test().digest
-    assert ready["schema"] == "0001"
+    assert ready["schema"] == head()
     assert ready["database"] in ("sqlite", "postgresql")
 
 
