@@ -1,21 +1,25 @@
 # The match server. For x86-64 processors of 2013 and later (x86-64-v3); games are kept in the volume /data.
-FROM python:3.12-slim AS build
+FROM python:3.12.12-slim-bookworm AS build
 WORKDIR /source
+COPY locks locks
+RUN pip install --require-hashes -r locks/build.txt
 COPY pyproject.toml README.md LICENSE ./
 COPY physics physics
 COPY referee referee
 COPY tournament tournament
 COPY server server
 COPY client client
-RUN pip wheel --no-deps --wheel-dir /wheels .
+RUN pip wheel --no-deps --no-build-isolation --wheel-dir /wheels .
 
-FROM python:3.12-slim
+FROM python:3.12.12-slim-bookworm
 ENV PIP_NO_CACHE_DIR=1 PYTHONUNBUFFERED=1
 # numba caches per processor: both must be set for kernels compiled here to be found on another machine.
 ENV NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES=""
 ENV POOLIAD_CACHE_DIR=/var/cache/pooliad POOLIAD_DATABASE=sqlite:////data/pooliad.db
+COPY --from=build /source/locks/server.txt /wheels/server.txt
+RUN pip install --require-hashes -r /wheels/server.txt
 COPY --from=build /wheels /wheels
-RUN pip install "$(ls /wheels/pooliad-*.whl)[server]"
+RUN pip install --no-deps /wheels/pooliad-*.whl
 RUN install -d -o 10001 -g 10001 /data /var/cache/pooliad
 USER 10001:10001
 # The self-test leaves every kernel the server needs compiled in the cache.

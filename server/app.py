@@ -1,5 +1,6 @@
 """The composition root: the only place where the server's parts are put together."""
 
+import logging
 from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager
 from functools import partial
@@ -21,12 +22,15 @@ from server.services.heartbeat import Heartbeat
 from server.services.house_bots import House
 from server.services.matches import abort_foreign
 from server.services.relay import Relay
+from server.services.retention import Retention
 from server.services.spectators import Spectators
 from server.services.time import DatabaseTime, TimeSource
 from server.services.timer import Timer
 from server.settings import Settings
 from server.store.database import Database
 from server.store.upgrade import upgrade
+
+log = logging.getLogger("pooliad.server")
 
 DESCRIPTION = """Matches between pool-playing programs under a referee. Units: metres, seconds, degrees;
 millimetres
@@ -35,7 +39,10 @@ gets the stored answer. Errors are RFC 9457 problem details with a stable `code`
 
 
 def create_app(settings: Settings) -> FastAPI:
-    """The server as an ASGI application; its database is opened and brought up to date when it starts."""
+    """The server as an ASGI application; `prepare` its database before it starts.
+
+    Once it listens, `app.state.heartbeat.listening()` lets games go on, and `app.state.house.listening(url)` the bots.
+    """
     database = Database(settings.database, settings.database_seconds)
     context = Context(
         settings,
@@ -61,6 +68,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.context = context
     app.state.spectators = Spectators(context)
     app.state.house = House(context)
+    app.state.heartbeat = Heartbeat(context)
     app.openapi = partial(openapi.document, app)  # type: ignore[method-assign]
     app.add_middleware(BodyGate, settings=settings, time=context.time)
     app.add_middleware(Farewell, draining=context.wakeups.draining)
@@ -71,18 +79,30 @@ def create_app(settings: Settings) -> FastAPI:
     return app
 
 
+def prepare(context: Context) -> None:
+    """Take the database, bring it to this version's tables, and call off what another engine would play.
+
+    Raises `SettingsError` when the database is not to be had, `Unavailable` when it does not answer.
+    """
+    context.database.membership.enter()
+    context.time.adjust()
+    upgrade(context.database)
+    if warning := context.database.exposure():
+        log.warning(warning)
+    with context.writing() as writing:
+        keys.ensure(writing.connection, writing.now)
+    abort_foreign(context)
+
+
 def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManager[None]]:
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        context.database.membership.enter()
-        context.time.adjust()
-        upgrade(context.database)
-        with context.writing() as writing:
-            keys.ensure(writing.connection, writing.now)
-        abort_foreign(context)
         context.wakeups.start()
         warmup.start(context)
-        parts = Relay(context), Heartbeat(context), Timer(context), app.state.spectators, app.state.house
+        parts = (
+            *(Relay(context), app.state.heartbeat, Timer(context), Retention(context)),
+            *(app.state.spectators, app.state.house),
+        )
         async with AsyncExitStack() as stack:
             for part in parts:
                 await stack.enter_async_context(part.running())

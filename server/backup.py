@@ -15,6 +15,7 @@ from pathlib import Path
 from server.errors import SettingsError
 from server.settings import Settings, without_password
 from server.store import postgresql
+from server.store.files import create_private, exposure
 from server.store.sqlite import path_of
 
 
@@ -50,7 +51,8 @@ def _sqlite(url: str) -> str:
 
 
 def _copy(source: Path, target: Path) -> None:
-    os.close(os.open(target, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600))
+    target.unlink(missing_ok=True)  # of a run that was killed, or planted here: with another mode, or a link elsewhere
+    create_private(str(target))
     existing = f"{source.absolute().as_uri()}?mode=rw"
     with closing(sqlite3.connect(existing, uri=True)) as served, closing(sqlite3.connect(target)) as copy:
         served.backup(copy)  # in one step: a reader of one moment, beside whom others write on
@@ -77,6 +79,8 @@ def main() -> None:
     options = parser.parse_args()
     try:
         size = backup(options.database, options.file)
+        if warning := exposure(path_of(options.database)):
+            print(f"pooliad backup: {warning}", file=sys.stderr)  # noqa: T201
     except (SettingsError, OSError, sqlite3.Error) as error:
         sys.exit(f"pooliad backup: {error}")
     print(json.dumps({"backup": str(options.file), "bytes": size}))  # noqa: T201

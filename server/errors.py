@@ -198,6 +198,12 @@ class TooLarge(ServerError):
     status, code = 413, ProblemCode.TOO_LARGE
 
 
+class HeadTooLarge(TooLarge):
+    """The request line and the header fields together are larger than the server takes."""
+
+    status = 431
+
+
 class UnsupportedMediaType(ServerError):
     """The body does not say that it is JSON."""
 

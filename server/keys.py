@@ -10,7 +10,7 @@ import sys
 
 from sqlalchemy.exc import SQLAlchemyError
 
-from server.errors import SettingsError
+from server.errors import SettingsError, Unavailable
 from server.security import keys
 from server.services.time import TimeSource
 from server.settings import Settings
@@ -26,7 +26,7 @@ def main() -> None:
         if options.database is not None:
             settings = dataclasses.replace(settings, database=options.database)
         print(_done(options.action, Database(settings.database)))  # noqa: T201
-    except (SettingsError, OSError, SQLAlchemyError) as error:
+    except (SettingsError, Unavailable, OSError, SQLAlchemyError) as error:
         sys.exit(f"pooliad keys: {error}")
 
 

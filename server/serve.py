@@ -4,19 +4,22 @@ The address is announced, and a signal sends waiting polls home before the rest 
 """
 
 import asyncio
+import errno
 import gc
 import json
 import resource
 import signal
 import socket
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager
 
 import uvicorn
 
-from server.app import create_app
+from server.app import create_app, prepare
+from server.errors import SettingsError
 from server.ops import logs
+from server.security.body_gate import LONGEST_HEAD
 from server.security.connections import http_protocol
 from server.services.context import Context
 from server.settings import Settings
@@ -34,16 +37,16 @@ BACKLOG = 2048
 class _Server(uvicorn.Server):
     """uvicorn, draining at the signal itself: its own hook comes after the connections it waits for."""
 
-    def __init__(self, config: uvicorn.Config, context: Context, ready: Callable[[], None]) -> None:
+    def __init__(self, config: uvicorn.Config, context: Context, listening: Callable[[], Awaitable[None]]) -> None:
         super().__init__(config)
         self._context = context
-        self._ready = ready
+        self._listening = listening
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Start, then say so."""
+        """Start; once connections are accepted, let everything go on that waited for it."""
         await super().startup(sockets)
         if self.started:
-            self._ready()
+            await self._listening()
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
@@ -63,7 +66,7 @@ class _Server(uvicorn.Server):
 
 
 def serve(settings: Settings, host: str, port: int) -> None:
-    """Serve until a signal; port 0 takes a free one. Raises `OSError` when the address is taken.
+    """Serve until a signal; port 0 takes a free one. Raises `SettingsError` when the address is not to be had.
 
     The first line on standard output is `{"event": "listening", "url": "http://127.0.0.1:8080"}`, written
     once connections are accepted; the log goes to standard error.
@@ -82,9 +85,10 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
     sys.setswitchinterval(SWITCH_SECONDS)
     app = create_app(settings)
     context: Context = app.state.context
-    context.database.membership.enter()
+    prepare(context)
 
-    def started() -> None:
+    async def started() -> None:
+        await app.state.heartbeat.listening()
         app.state.house.listening(_url(server_socket))
         ready()
 
@@ -98,6 +102,8 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
         server_header=False,
         proxy_headers=bool(settings.proxies),
         forwarded_allow_ips=settings.named_proxies,
+        h11_max_incomplete_event_size=LONGEST_HEAD,
+        headers=[("X-Content-Type-Options", "nosniff")],
         log_level="warning",
         timeout_graceful_shutdown=max(1, round(settings.drain_seconds)),
     )
@@ -114,21 +120,36 @@ def _raise_descriptor_limit() -> None:
 
 
 def listening(host: str, port: int) -> socket.socket:
-    """A socket that listens at this address.
+    """A socket that listens at this address; raises `SettingsError` when it cannot.
 
     asyncio turns Nagle's algorithm off (an answer of two packets would wait 40 ms for an acknowledgement) only where
     the socket itself says that it is TCP, which one of `socket.create_server` does not.
     """
-    place = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
+    try:
+        place = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
+    except socket.gaierror as error:
+        raise SettingsError(f"host = {host}: must be an address of this machine; {error.strerror}") from error
     made = socket.socket(place[0], socket.SOCK_STREAM, socket.IPPROTO_TCP)
     made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         made.bind(place[4])
-    except OSError:
+        made.listen(BACKLOG)
+    except OSError as error:
         made.close()
-        raise
-    made.listen(BACKLOG)
+        raise _cannot_listen(host, port, error) from error
     return made
+
+
+def _cannot_listen(host: str, port: int, error: OSError) -> SettingsError:
+    """The system's refusal, and what to do about it."""
+    if error.errno == errno.EADDRINUSE:
+        return SettingsError(
+            f"port = {port}: must be free at {host}; address already in use by another program. Stop that program, "
+            "or choose another port: --port 0 takes a free one"
+        )
+    if error.errno == errno.EACCES:
+        return SettingsError(f"port = {port}: must be 1024 or more for a user without privileges; {error.strerror}")
+    return SettingsError(f"host = {host}: must be an address of this machine; {error.strerror}")
 
 
 def announce(server_socket: socket.socket) -> None:

@@ -86,6 +86,9 @@ class Settings:
     proxies: str = setting("", "addresses or networks, apart by `,`, of proxies whose `X-Forwarded-For` is believed")
     streams: int = setting(64, "streams of one token, or of one address without one, that may be open at once")
     polls: int = setting(64, "long polls of one token that may be open at once")
+    answer_seconds: float = setting(
+        86400.0, "a stored answer is kept at least so long, and until its match is over; then its key is forgotten"
+    )
     physics_threads: int = setting(2, "threads for simulations that clients ask for")
     log_level: str = setting("info", "the least that is logged: `debug`, `info`, `warning`, `error`", one_of=LOG_LEVELS)
     drain_seconds: float = setting(5.0, "the server stops at the latest so long after SIGTERM")
@@ -164,7 +167,7 @@ def organiser_digest(token: str) -> str:
 
 
 def _require_database(url: str) -> None:
-    is_file = url.startswith("sqlite:///") and url not in ("sqlite:///", "sqlite:///:memory:")
+    is_file = url.startswith("sqlite:///") and url not in ("sqlite:///", "sqlite:///:memory:") and "?" not in url
     if not (is_file or url.startswith("postgresql://")):
         allowed = "sqlite:///path (a file), postgresql://user@host/name"
         raise SettingsError(f"database is {without_password(url)!r}; allowed: {allowed}")

@@ -1,14 +1,20 @@
 """`pooliad doctor`: is everything here that playing needs, and which of it is it?"""
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
 from client.cli.output import Json, emit, fail, say
 
+if TYPE_CHECKING:
+    from pathlib import Path
+
 PACKAGES = ("physics", "referee", "tournament", "server", "client")
 LIBRARIES = ("numpy", "numba", "pydantic", "httpx2", "typer", "rich")
 SERVER_LIBRARIES = ("fastapi", "uvicorn", "sqlalchemy", "alembic", "prometheus_client")
+
+SQLITE_MAGIC: Final = b"SQLite format 3\0"
+"""The first bytes of a database's file (https://sqlite.org/fileformat.html, 1.3)."""
 
 
 def doctor(
@@ -80,15 +86,34 @@ def _record_engine() -> dict[str, str]:
 
 
 def _database(url: str) -> dict[str, Any]:
-    """Whether the database's file is there, or could be made."""
+    """Whether the database's file is there, or could be made; what it is, and which of its files others may read."""
     import os
     from pathlib import Path
 
     if not url.startswith("sqlite:///"):
-        return {"url": url, "exists": None, "usable": None}
-    path = Path(url.removeprefix("sqlite:///"))
-    writable = os.access(path if path.exists() else path.absolute().parent, os.W_OK)
-    return {"url": url, "exists": path.exists(), "usable": writable}
+        return {"url": url, "exists": None, "usable": None, "sqlite": None, "open_to_others": []}
+    path = Path(url.removeprefix("sqlite:///")).resolve()
+    writable = os.access(path if path.exists() else path.parent, os.W_OK)
+    there = {"url": url, "exists": path.exists(), "usable": writable}
+    return there | {"sqlite": _is_sqlite(path), "open_to_others": _open_to_others(path)}
+
+
+def _is_sqlite(path: "Path") -> bool | None:
+    """Whether a file is an SQLite database, or empty, to become one; None when there is none that can be read."""
+    try:
+        with path.open("rb") as file:
+            return file.read(len(SQLITE_MAGIC)) in (b"", SQLITE_MAGIC)
+    except OSError:
+        return None
+
+
+def _open_to_others(path: "Path") -> list[str]:
+    """The files of an SQLite database that others than the owner may read or write, each with its mode."""
+    import stat
+
+    files = [path.with_name(path.name + suffix) for suffix in ("", "-wal", "-shm", "-journal")]
+    modes = {file: stat.S_IMODE(file.stat().st_mode) for file in files if file.exists()}
+    return [f"{file} ({mode:04o})" for file, mode in modes.items() if mode & (stat.S_IRWXG | stat.S_IRWXO)]
 
 
 def _port(port: int) -> dict[str, Any]:
@@ -122,6 +147,13 @@ def _faults(report: dict[str, Any]) -> list[str]:
         faults.append("the physics gives two answers to the same shot")
     if report["database"]["usable"] is False:
         faults.append(f"the database {report['database']['url']} cannot be written")
+    if report["database"]["sqlite"] is False:
+        faults.append(f"database = {report['database']['url']}: must be an SQLite database or a new file")
+    if exposed := report["database"]["open_to_others"]:
+        faults.append(
+            f"others may read the signing key and the seeds of running games in {', '.join(exposed)}: must be 0600 "
+            "(chmod 600)"
+        )
     return faults
 
 
@@ -136,4 +168,6 @@ def _shown(value: Any) -> str:
     """A value in a word."""
     if value is None:
         return "missing"
+    if isinstance(value, list):
+        return ", ".join(value) or "none"
     return {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)

@@ -50,7 +50,7 @@ class ProblemCode(StrEnum):
     STALE_VERSION = "stale_version"
     """412: the game has moved on; the problem carries the current view."""
     TOO_LARGE = "too_large"
-    """413: the body is too large."""
+    """413: the body is too large; 431: the header fields are."""
     UNSUPPORTED_MEDIA_TYPE = "unsupported_media_type"
     """415: the body must be application/json."""
     INVALID = "invalid"

@@ -42,6 +42,10 @@ def readiness(context: Context) -> dict[str, str]:
         raise Draining("the physics kernels are being loaded")
     if context.pulse.is_lost(context.time.now()):
         raise Unavailable("the database does not take this process's heartbeats")
+    if context.database.writes_fail.is_set():
+        raise Unavailable("the database does not take what is written")
+    if not context.database.has_room():
+        raise Unavailable("the database's disk is full")
     if not is_current(context.database):
         raise Draining("the database has the tables of another version")
     (tested,) = context.self_test

@@ -31,7 +31,6 @@ POLICY: Final = (
 """Nothing is loaded from anywhere else, no markup is made from text, nobody puts the page in a frame."""
 HEADERS: Final = {
     "Content-Security-Policy": "; ".join(POLICY),
-    "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",

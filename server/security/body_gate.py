@@ -14,6 +14,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from referee.wire import shown
 from server.errors import (
+    HeadTooLarge,
     NotFound,
     ServerError,
     SlowBody,
@@ -30,6 +31,8 @@ from server.settings import Settings
 BODILESS = frozenset({"GET", "HEAD", "OPTIONS", "DELETE"})
 LARGE: Final = frozenset({"/v1/simulate/batch", "/v1/tournaments"})
 """Where a thousand shots or entrants may come: no other route has use for a large body."""
+LONGEST_HEAD: Final = 16 * 1024
+"""Bytes of a request line with all header fields: a token, a key and a version have some hundreds."""
 UNCOUNTED: Final = 16 * 1024
 """Bytes of each body that are always taken, however much is held already: no stroke is longer."""
 
@@ -46,7 +49,7 @@ class BodyGate:
         self._time = time
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let the request through with its body, or answer 400, 404, 408, 413, 415, 422 or 429 in its place."""
+        """Let the request through with its body, or answer 400, 404, 408, 413, 415, 422, 429 or 431 in its place."""
         if scope["type"] != "http":
             return await self._app(scope, receive, send)
         with self._held.share() as hold:
@@ -55,6 +58,7 @@ class BodyGate:
     async def _pass(self, scope: Scope, receive: Receive, send: Send, hold: Callable[[int], None]) -> None:
         body = None
         try:
+            _require_short_head(scope)
             _require_one_length(scope)
             _require_address(scope)
             if scope["method"] not in BODILESS:
@@ -100,6 +104,16 @@ def _too_large(limit: int) -> TooLarge:
 
 class _HungUp(Exception):
     """The caller left before the body was complete: nobody to answer, and nothing to carry out."""
+
+
+def _require_short_head(scope: Scope) -> None:
+    """Raise `HeadTooLarge` (RFC 6585, 5). The framework's own limit is on heads that come in pieces alone."""
+    line = len(scope["method"]) + len(scope["raw_path"]) + len(scope["query_string"]) + len(" ? HTTP/1.1\r\n")
+    size = line + sum(len(name) + len(value) + len(": \r\n") for name, value in scope["headers"])
+    if size > LONGEST_HEAD:
+        allowed = f"at most {LONGEST_HEAD} bytes"
+        detail = f"headers = {size} bytes: must be {allowed} with the request line"
+        raise HeadTooLarge(detail, field="headers", value=size, allowed=allowed)
 
 
 def _require_one_length(scope: Scope) -> None:

@@ -7,7 +7,9 @@ nor for answers that nobody reads, and no bound on one caller's share of the con
 """
 
 import asyncio
+import sys
 from collections import Counter
+from http import HTTPStatus
 from typing import ClassVar
 
 import h11
@@ -15,11 +17,15 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from server.settings import Settings
 
-TIMED_OUT = b"HTTP/1.1 408 Request Timeout\r\nconnection: close\r\ncontent-length: 0\r\n\r\n"
+NO_SNIFFING = b"x-content-type-options: nosniff\r\n"
+TIMED_OUT = b"HTTP/1.1 408 Request Timeout\r\nconnection: close\r\n" + NO_SNIFFING + b"content-length: 0\r\n\r\n"
 TOO_MANY = (
     b"HTTP/1.1 429 Too Many Requests\r\nconnection: close\r\nretry-after: 1\r\ncontent-type: text/plain\r\n"
-    b"content-length: 36\r\n\r\ntoo many connections of this address"
+    + NO_SNIFFING
+    + b"content-length: 36\r\n\r\ntoo many connections of this address"
 )
+
+HEAD_TOO_LARGE = 431
 
 LEAST_READ = 64 * 1024
 """Bytes."""
@@ -92,6 +98,22 @@ class _Bounded(H11Protocol):
             if not self.open_by_address[self._address]:
                 del self.open_by_address[self._address]
         super().connection_lost(exc)
+
+    def send_400_response(self, msg: str) -> None:
+        """Answer what cannot be read as a request with 400, a head that is too large with 431, and close."""
+        error, text = sys.exc_info()[1], msg.encode()
+        too_large = isinstance(error, h11.RemoteProtocolError) and error.error_status_hint == HEAD_TOO_LARGE
+        headers = [
+            *self.server_state.default_headers,
+            (b"content-type", b"text/plain; charset=utf-8"),
+            (b"content-length", str(len(text)).encode()),
+            (b"connection", b"close"),
+        ]
+        status = HTTPStatus(HEAD_TOO_LARGE if too_large else 400)
+        head = h11.Response(status_code=status.value, headers=headers, reason=status.phrase.encode())
+        for event in (head, h11.Data(data=text), h11.EndOfMessage()):
+            self.transport.write(self.conn.send(event))
+        self.transport.close()
 
     def pause_writing(self) -> None:
         """More is written than is being read."""

@@ -1,7 +1,7 @@
 """When a turn is over although nobody plays it: out of time, or nobody there."""
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Final
 
 from sqlalchemy import Row
 
@@ -9,6 +9,9 @@ from referee.game import Game
 from referee.play import LagAllowance
 from server.services.context import Writing
 from server.services.live import LiveGame
+
+HELD: Final = 2**62
+"""A time that never comes (ns since 1970, in the year 2116): what waits for the server to listen is dated here."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +81,18 @@ def available(writing: Writing, clock: TurnClock) -> dict[str, Any]:
         "available_at": writing.now,
         "clock_from": clock_from,
         "deadline": deadline,
+        "carried": clock.carried,
+        "carried_grace": clock.carried_grace,
+    }
+
+
+def held(clock: TurnClock) -> dict[str, Any]:
+    """The columns of a turn while nobody can fetch it: neither clock nor grace runs until it is made available."""
+    return {
+        "delivered": False,
+        "available_at": HELD,
+        "clock_from": HELD,
+        "deadline": clock.runs_out(HELD),
         "carried": clock.carried,
         "carried_grace": clock.carried_grace,
     }

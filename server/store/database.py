@@ -5,15 +5,21 @@ different matches go on at once, and whoever changes a match locks its row first
 """
 
 import contextlib
+import secrets
 import threading
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
+from typing import Final
 
-from sqlalchemy import Connection, Engine
+from sqlalchemy import Connection, Engine, delete, insert
 
 from server.errors import ServerError
-from server.store import outages, postgresql, sqlite
+from server.store import files, outages, postgresql, sqlite
 from server.store.membership import AloneMembership, Membership, SharedMembership
+from server.store.tables import answers
+
+ROOM: Final = 1024 * 1024
+"""Bytes: more than strokes write but for the longest, ten times what a break does with its line and its answer."""
 
 
 class Database:
@@ -26,6 +32,7 @@ class Database:
     Attributes:
         is_shared: whether several server processes may work on it at once.
         membership: which of them are there.
+        writes_fail: set by a write that the database did not take, cleared by `try_writing`.
     """
 
     def __init__(self, url: str, wait: float = outages.WAIT_SECONDS) -> None:
@@ -34,6 +41,7 @@ class Database:
         self._engine = postgresql.engine(url) if self.is_shared else sqlite.engine(url, wait)
         self._reader = self._engine.execution_options(**postgresql.READING) if self.is_shared else self._engine
         self._writer: AbstractContextManager[None] = contextlib.nullcontext() if self.is_shared else _WritersPlace()
+        self.writes_fail = threading.Event()
         self.membership: Membership = SharedMembership(self._engine) if self.is_shared else AloneMembership(url)
 
     @contextmanager
@@ -51,10 +59,34 @@ class Database:
 
         On SQLite, threads of this process queue on a lock rather than on the library's sleeping retries.
         """
-        with outages.told(), self._writer, _connected(self._engine) as connection:
+        with outages.told(self.writes_fail.set), self._writer, _connected(self._engine) as connection:
             writing = connection.execution_options(**sqlite.WRITING)
             with writing.begin():
                 yield writing
+
+    def has_room(self) -> bool:
+        """Whether the database's disk has room for a stroke; PostgreSQL's may be another machine's: not asked."""
+        try:
+            return self.is_shared or files.free_bytes(sqlite.path_of(self.url)) >= ROOM
+        except OSError:
+            return False
+
+    def try_writing(self) -> None:
+        """Write, and take back, as much as a large stroke: small writes get through where no stroke does.
+
+        Raises `Unavailable` when the database does not take it.
+        """
+        probe = {"caller": "probe", "route": "probe", "key": secrets.token_hex(8)}
+        row = {"request_digest": "", "status": 0, "headers": {}, "body": secrets.token_bytes(ROOM), "created_at": 0}
+        with self.writing() as connection:
+            connection.execute(insert(answers).values(probe | row))
+        with self.writing() as connection:
+            connection.execute(delete(answers).filter_by(**probe))
+        self.writes_fail.clear()
+
+    def exposure(self) -> str | None:
+        """What to say when others than the owner may read the files of the database; None when they may not."""
+        return None if self.is_shared else files.exposure(sqlite.path_of(self.url))
 
     def clock(self) -> int:
         """The time by the database's own clock, ns since 1970; for several processes that share it."""
@@ -62,8 +94,9 @@ class Database:
             return int(connection.exec_driver_sql(postgresql.CLOCK).scalar_one())
 
     def dispose(self) -> None:
-        """Close every connection."""
+        """Close every connection, then give the place back."""
         self._engine.dispose()
+        self.membership.leave()
 
 
 class Overtaken(Exception):

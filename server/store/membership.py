@@ -4,7 +4,6 @@ A process that dies, however it dies, is gone at once: what says that it is ther
 its connection to the database.
 """
 
-import fcntl
 import os
 from typing import Final, Protocol
 
@@ -12,7 +11,7 @@ from sqlalchemy import Connection, Engine, text
 from sqlalchemy.exc import DBAPIError
 
 from server.errors import SettingsError
-from server.store import outages
+from server.store import files, outages
 from server.store.sqlite import path_of
 
 SERVING: Final = 0x706F6F6C
@@ -41,31 +40,24 @@ class Membership(Protocol):
 
 
 class AloneMembership:
-    """One server process a file: a lock on `FILE.lock`, which ends with the process."""
+    """One server process an SQLite file: a lock on the file itself, which ends with the process."""
 
     is_alone: Final = True
 
     def __init__(self, url: str) -> None:
-        self._path = f"{path_of(url)}.lock"
+        self._path = path_of(url)
         self._file: int | None = None
 
     def enter(self) -> None:
         """Take the lock, or say who has it."""
         if self._file is not None:
             return
-        file = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o600)
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            owner = os.read(file, 20).decode().strip()
-            os.close(file)
+        self._file = files.lock(self._path)
+        if self._file is None:
             raise SettingsError(
-                f"the database {self._path.removesuffix('.lock')} is served by another process ({owner}); "
+                f"the database {self._path} is served by another process ({files.holder(self._path)}); "
                 "allowed: one server process an SQLite file, several a postgresql:// database"
-            ) from error
-        os.truncate(file, 0)
-        os.write(file, f"{os.getpid()}\n".encode())
-        self._file = file
+            )
 
     def settle(self) -> None:
         """Nobody else comes in."""
@@ -74,7 +66,7 @@ class AloneMembership:
         """The lock is this process's until it ends."""
 
     def leave(self) -> None:
-        """Let go of the lock; the file stays, for taking it away could take another's."""
+        """Let go of the lock, when every connection is closed: with the file SQLite's own locks are given back."""
         if self._file is not None:
             os.close(self._file)
             self._file = None

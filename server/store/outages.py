@@ -2,7 +2,7 @@
 
 import logging
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Final
 
@@ -33,14 +33,19 @@ _PRIMARY: Final = 0xFF
 """The bits of SQLite's code that say what kind of failure it is (https://sqlite.org/rescode.html)."""
 
 
+def nothing() -> None:
+    """Nobody is to be told."""
+
+
 @contextmanager
-def told() -> Iterator[None]:
-    """Raise `Unavailable` where the database does not answer; why is for the log alone."""
+def told(outage: Callable[[], None] = nothing) -> Iterator[None]:
+    """Raise `Unavailable` where the database does not answer, after a call of `outage`; why is for the log alone."""
     try:
         yield
     except (exc.DBAPIError, exc.TimeoutError) as error:
         if not _is_outage(error):
             raise
+        outage()
         log.warning("the database does not answer: %s", error.orig if isinstance(error, exc.DBAPIError) else error)
         raise unavailable() from error
 

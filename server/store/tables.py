@@ -222,7 +222,7 @@ answers = Table(
     Column("status", Integer, nullable=False),
     Column("headers", JSON, nullable=False),
     Column("body", LargeBinary, nullable=False),
-    Column("created_at", BigInteger, nullable=False),
+    Column("created_at", BigInteger, nullable=False, index=True),
 )
 """The idempotency rows: what was answered to an accepted request, stored in the transaction that did it."""
 

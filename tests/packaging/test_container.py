@@ -13,6 +13,7 @@ import shutil
 import socket
 import subprocess
 import time
+import tomllib
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
@@ -20,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from docker.utils.build import exclude_paths
 from support.require import ROOT, require
 
 TEXT = re.sub(r"\\\n\s*", "", (ROOT / "Dockerfile").read_text(encoding="utf-8"))
@@ -32,6 +34,25 @@ def only(instruction: str) -> str:
     """The argument of an instruction that stands there once."""
     (rest,) = [rest for name, rest in INSTRUCTIONS if name == instruction]
     return rest
+
+
+def context_files(source: str = ".") -> list[str]:
+    """The files of the build context at or below a path, by Docker's own rules for `.dockerignore`."""
+    patterns = (ROOT / ".dockerignore").read_text(encoding="utf-8").splitlines()
+    there = exclude_paths(str(ROOT), patterns)
+    below = "" if source == "." else f"{source}/"
+    files = [name for name in there if (ROOT / name).is_file() and not (ROOT / name).is_symlink()]
+    return sorted(name for name in files if name == source or name.startswith(below))
+
+
+def tracked_files(source: str) -> list[str]:
+    """The files of the checkout at or below a path."""
+    command = ["git", "-c", f"safe.directory={ROOT}", "-C", str(ROOT), "ls-files", "-co", "--exclude-standard"]
+    done = subprocess.run([*command, "--", source], capture_output=True, text=True, check=False)
+    if done.returncode == 0:
+        return sorted(name for name in done.stdout.splitlines() if (ROOT / name).exists())
+    files = [path for path in [ROOT / source, *(ROOT / source).rglob("*")] if path.is_file()]  # no checkout: a copy
+    return sorted(str(path.relative_to(ROOT)) for path in files if "__pycache__" not in path.parts)
 
 
 class Image:
@@ -58,20 +79,25 @@ class Image:
             elif name == "WORKDIR":
                 self.directory = Path(self.here(rest))
                 self.directory.mkdir(parents=True, exist_ok=True)
-            elif name == "COPY" and not rest.startswith("--from=build"):
-                *sources, target = rest.split()
-                self.copy(sources, self.directory / target)
+            elif name == "COPY":
+                self.copy(rest)
             elif name == "RUN":
                 self.python.must(["bash", "-euc", f"cd {self.directory}; {self.here(rest)}"], **self.variables)
 
-    @staticmethod
-    def copy(sources: list[str], target: Path) -> None:
-        """COPY from the checkout: a folder's content, or files."""
+    def copy(self, rest: str) -> None:
+        """COPY from the build context, or from the stage before, whose file system is the same here."""
+        *sources, target = rest.removeprefix("--from=build ").split()
+        if rest.startswith("--from=build "):
+            here, there = Path(self.here(sources[0])), Path(self.here(target))
+            if here.is_file():
+                there.parent.mkdir(exist_ok=True)
+                shutil.copy(here, there)
+            return
         for source in sources:
-            if (ROOT / source).is_dir():
-                shutil.copytree(ROOT / source, target, ignore=shutil.ignore_patterns("__pycache__"))
-            else:
-                shutil.copy(ROOT / source, target)
+            for name in context_files(source):
+                place = self.directory / target / Path(name).relative_to(source if (ROOT / source).is_dir() else ".")
+                place.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(ROOT / name, place)
 
     def compiled(self) -> dict[str, float]:
         """The files of the kernel cache, each with its time of writing."""
@@ -123,10 +149,39 @@ def ask(url: str, body: object = None, token: str = "") -> Any:
 
 
 def test_it_is_slim_and_does_not_run_as_root() -> None:
-    assert {rest.split()[0] for name, rest in INSTRUCTIONS if name == "FROM"} == {"python:3.12-slim"}
+    (base,) = {rest.split()[0] for name, rest in INSTRUCTIONS if name == "FROM"}
+    assert re.fullmatch(r"python:3\.\d+\.\d+-slim-[a-z]+", base), "a version, not what it is today"
     assert int(only("USER").partition(":")[0]) > 0
     names = [name for name, _ in INSTRUCTIONS]
     assert names.index("USER") < names.index("CMD")
+
+
+def test_the_build_context_has_what_every_copy_needs() -> None:
+    """Seen: `.dockerignore` left out tournament/, and no image could be built."""
+    copies = [rest.split()[:-1] for name, rest in INSTRUCTIONS if name == "COPY" and not rest.startswith("--from")]
+    sources = [source for words in copies for source in words]
+    assert {"pyproject.toml", "locks"} <= set(sources)
+    for source in sources:
+        needed = tracked_files(source)
+        assert needed, f"COPY {source}: there is no such file"
+        assert context_files(source) == needed
+    packages = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]["targets"]["wheel"]
+    assert set(packages["packages"]) <= set(sources), "what the wheel is made of is copied"
+
+
+def test_the_build_context_has_nothing_else() -> None:
+    """No token, no database and no environment that lies in the checkout gets into an image."""
+    copied = {source for name, rest in INSTRUCTIONS if name == "COPY" for source in rest.split()[:-1]}
+    docker_needs = {"Dockerfile", ".dockerignore"}
+    assert {name.partition("/")[0] for name in context_files()} - docker_needs <= copied
+
+
+def test_the_image_installs_from_the_lock_alone() -> None:
+    installs = [rest for name, rest in INSTRUCTIONS if name == "RUN" and "pip " in rest]
+    assert len(installs) == 4
+    for command in installs:
+        assert "--require-hashes" in command or "--no-deps" in command, command
+    assert not [rest for rest in installs if "pip wheel" in rest and "--no-build-isolation" not in rest]
 
 
 def test_the_health_check_answers(image: Image, url: str) -> None:

@@ -31,6 +31,7 @@ DATABASES = {
     "test_tournaments": BOTH,
     "test_whole_match": BOTH,
     "test_several_processes": ("postgresql",),
+    "test_stored_answers": BOTH,
     "test_unstorable": BOTH,
     "test_upgrade": BOTH,
 }

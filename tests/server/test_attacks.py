@@ -196,3 +196,57 @@ def test_ten_thousand_connections_from_one_address(own_server, table_at):
     for connection in crowd:
         connection.close()
     table.play(2)
+
+
+def exchanged(server, request):
+    """A connection's whole answer to these bytes."""
+    with connected(server) as connection:
+        connection.sendall(request)
+        return until_closed(connection)
+
+
+@pytest.mark.parametrize("pieces", [1, 40])
+def test_the_head_of_a_request_is_bounded(server, pieces):
+    """Request line and fields together, 16 KiB, in one packet or many (RFC 6585, 5)."""
+    whole = b"GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n"
+    fields = b"".join(b"X-%03d: %s\r\n" % (number, b"y" * 491) for number in range(40))  # 500 bytes each
+    with connected(server) as connection:
+        head = whole + fields + b"\r\n"
+        size = -(-len(head) // pieces)
+        try:
+            for start in range(0, len(head), size):
+                connection.sendall(head[start : start + size])
+        except OSError:
+            pass  # it was answered already
+        said = until_closed(connection)
+    assert said.startswith(b"HTTP/1.1 431 "), said[:200]
+    assert exchanged(server, whole + fields[: 500 * 31] + b"\r\n").startswith(b"HTTP/1.1 200 "), "15.5 KiB"
+    long_line = b"GET /healthz?%s HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
+    assert exchanged(server, long_line % (b"a" * 17_000)).startswith(b"HTTP/1.1 431 ")
+
+
+@pytest.mark.parametrize(
+    "request_line",
+    [
+        *(b"GET /healthz", b"GET /", b"GET /web/style.css", b"GET /openapi.json", b"GET /metrics", b"GET /nothing"),
+        *(b"GET /v1/turns", b"PUT /v1/agents", b"GET /v1/agents?limit=x", b"NOT HTTP AT ALL", b"GET /%00"),
+    ],
+)
+def test_no_answer_may_be_sniffed(server, request_line):
+    said = exchanged(server, request_line + b" HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
+    head = said.partition(b"\r\n\r\n")[0].lower()
+    assert head.startswith(b"http/1.1 ")
+    assert head.count(b"x-content-type-options: nosniff") == 1, said[:400]
+
+
+def test_the_servers_own_refusals_may_not_be_sniffed(own_server):
+    server = own_server(POOLIAD_HEADER_SECONDS="0.3", POOLIAD_ADDRESS_CONNECTIONS="3")
+    with connected(server) as slow:
+        slow.sendall(b"GET / HTTP/1.1\r\n")
+        assert b"x-content-type-options: nosniff" in until_closed(slow), "408"
+    held = [connected(server) for _ in range(3)]
+    said = exchanged(server, b"")
+    for one in held:
+        one.close()
+    assert said.startswith(b"HTTP/1.1 429 ")
+    assert b"x-content-type-options: nosniff" in said

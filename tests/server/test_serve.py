@@ -46,8 +46,18 @@ def test_a_taken_port_is_an_error_in_words(tmp_path):
         port = str(taken.getsockname()[1])
         done = run("--port", port, "--database", f"sqlite:///{tmp_path / 'x.db'}")
     assert done.returncode != 0
-    assert "address already in use" in done.stderr.lower()
+    assert f"port = {port}: must be free at 127.0.0.1" in done.stderr
+    assert "--port 0 takes a free one" in done.stderr, "and what to do"
+    assert len(done.stderr.splitlines()) == 1
     assert done.stdout == ""
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("host", ["203.0.113.1", "no.such.host.invalid"])
+def test_a_host_that_is_not_ours_is_an_error_in_words(tmp_path, host):
+    done = run("--host", host, "--port", "0", "--database", f"sqlite:///{tmp_path / 'x.db'}")
+    assert done.returncode == 1
+    assert f"host = {host}: must be an address of this machine" in done.stderr
     assert "Traceback" not in done.stderr
 
 
@@ -56,6 +66,7 @@ def test_a_taken_port_is_an_error_in_words(tmp_path):
     [
         ({"POOLIAD_DATABASE": "mysql://x"}, "mysql://x"),
         ({"POOLIAD_DATABASE": "sqlite://"}, "sqlite:///path"),
+        ({"POOLIAD_DATABASE": "sqlite:///a.db?timeout=9"}, "sqlite:///path"),
         ({"POOLIAD_BODY_LIMIT": "1e6"}, "POOLIAD_BODY_LIMIT is '1e6'; allowed: a whole number"),
         ({"POOLIAD_TIMER_PERIOD": "-1"}, "timer_period is -1.0"),
         ({"POOLIAD_BODY_SECONDS": "nan"}, "body_seconds is nan"),
