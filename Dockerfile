@@ -7,6 +7,7 @@ COPY pyproject.toml README.md LICENSE ./
 COPY physics physics
 COPY referee referee
 COPY tournament tournament
+COPY protocol protocol
 COPY server server
 COPY client client
 RUN pip wheel --no-deps --no-build-isolation --wheel-dir /wheels .

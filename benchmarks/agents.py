@@ -12,8 +12,8 @@ import client
 from benchmarks.command import main
 from benchmarks.recording import Row, Tables
 from client.agent import AgentFactory
+from protocol import View
 from referee import Call
-from referee.wire import View
 
 SEED = 8
 NOISE = 1.0

@@ -1,6 +1,7 @@
 """Is the score without luck unbiased, and how much variance does it save? Whole games of unequal players at known odds.
 
-The careful player of `benchmarks.potter` against the careless one. Its true share of the points comes from many games
+The careful player of `benchmarks.straight_pots` against the careless one. Its true share of the points comes from many
+games
 without any correction; the games that luck is measured in are others. If the correction is unbiased, the mean luck is
 zero and the corrected mean agrees with the true share, both within a few standard errors.
 """
@@ -9,9 +10,9 @@ import numpy as np
 
 import client
 from benchmarks.command import main
-from benchmarks.potter import Potter
 from benchmarks.recording import Row, Tables
-from referee.play.local import PlayedGame, points_of
+from benchmarks.straight_pots import Potter
+from client.local_game import PlayedGame, points_of
 from tournament.luck import VALUE, game_luck
 
 SEED = 17

@@ -20,12 +20,12 @@ import client
 from benchmarks import recording
 from benchmarks.recording import Row, Tables
 from client.agents.search import SearchAgent
+from client.local_game import PlayedGame, play_game
 from physics import Table
 from physics.engine import digest_of
+from protocol import View
 from referee import Action, Call, EightBall, Stroke
 from referee.play import MatchSeed, NoiseModel
-from referee.play.local import PlayedGame, play_game
-from referee.wire import View
 from tournament.statistics import score_of_cells
 
 SEED = 2026

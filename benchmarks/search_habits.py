@@ -17,9 +17,9 @@ from client.agents.search.shots import CHANCE, PLACED, SEEN
 from client.agents.search.sight import Sight
 from client.agents.search.thinking import GROUPS
 from client.agents.search.value import Values
+from client.local_game import PlayedGame
 from physics import Table
 from referee import Call, Phase, Stroke
-from referee.play.local import PlayedGame
 
 SEED = 40
 GAMES = {0.0: 20, 1.0: 60, 5.0: 12}

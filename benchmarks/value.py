@@ -1,6 +1,7 @@
 """The weights of `tournament.luck.value`: a logistic regression on who won, over every turn of many games.
 
-Two equal players by geometry (`benchmarks.potter`), the noise level drawn for each game; a fifth of the games is kept
+Two equal players by geometry (`benchmarks.straight_pots`), the noise level drawn for each game; a fifth of the games is
+kept
 out of the fit to see how well it predicts. Between equal players who wins is due to the situation and the noise alone.
 """
 
@@ -11,9 +12,9 @@ from numpy.typing import NDArray
 
 import client
 from benchmarks.command import main
-from benchmarks.potter import Potter
 from benchmarks.recording import Row, Tables
-from referee.play.local import PlayedGame
+from benchmarks.straight_pots import Potter
+from client.local_game import PlayedGame
 from tournament.luck.value import FEATURES, features
 
 SEED = 11

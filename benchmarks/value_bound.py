@@ -12,8 +12,8 @@ import numpy as np
 import client
 from benchmarks import value
 from benchmarks.command import main
-from benchmarks.potter import Potter
 from benchmarks.recording import Row, Tables
+from benchmarks.straight_pots import Potter
 from referee import Game
 from tournament.luck import VALUE
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from client.run import run_agent, serve_agent
     from client.simulator import Simulator
     from client.sparring import spar
+    from protocol import GameOver, MatchRequest, View
     from referee import SAFETY, Action, BudgetSpent, Call, Decision
-    from referee.wire import GameOver, MatchRequest, View
 
 __all__ = [
     "SAFETY",
@@ -65,9 +65,9 @@ _HOMES = {
     "BudgetSpent": "referee",
     "Call": "referee",
     "Decision": "referee",
-    "GameOver": "referee.wire",
-    "MatchRequest": "referee.wire",
-    "View": "referee.wire",
+    "GameOver": "protocol",
+    "MatchRequest": "protocol",
+    "View": "protocol",
 }
 
 

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from functools import cached_property
 
 from client.simulator import Simulator
+from protocol import GameOver, View
 from referee import Action
-from referee.wire import GameOver, View
 
 
 class Agent(ABC):

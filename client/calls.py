@@ -15,8 +15,7 @@ from pydantic import BaseModel
 
 from client.exchange import IDEMPOTENCY_KEY, Call
 from physics import Shot, Table, TableState
-from referee import Action, Decision
-from referee.wire import (
+from protocol import (
     TURN_MESSAGE,
     AcceptRequest,
     AgentList,
@@ -59,8 +58,9 @@ from referee.wire import (
     Turn,
     VoidRequest,
 )
-from referee.wire.clocks import SupervisorsReason
-from referee.wire.matches import MatchStatus
+from protocol.clocks import SupervisorsReason
+from protocol.matches import MatchStatus
+from referee import Action, Decision
 
 Act = Literal["start", "pause", "abort", "void", "disqualify"]
 """What an organiser does about a tournament."""

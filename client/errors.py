@@ -48,7 +48,7 @@ from typing import ClassVar
 import httpx2
 from pydantic import ValidationError
 
-from referee.wire import Problem, ProblemCode, View
+from protocol import Problem, ProblemCode, View
 
 
 class PooliadError(Exception):

@@ -11,8 +11,7 @@ from client.calls import TurnMessage
 from client.exchange import Answer, Call, Outcome, Step, Wait, exchange
 from client.retry import Retry
 from physics import Shot, Table, TableState
-from referee import Action
-from referee.wire import (
+from protocol import (
     AgentList,
     AgentToken,
     AgentView,
@@ -41,8 +40,9 @@ from referee.wire import (
     TournamentView,
     VoidRequest,
 )
-from referee.wire.clocks import SupervisorsReason
-from referee.wire.matches import MatchStatus
+from protocol.clocks import SupervisorsReason
+from protocol.matches import MatchStatus
+from referee import Action
 
 
 class Pooliad:

@@ -7,12 +7,12 @@ from typing import Any
 
 from client.agent import AgentFactory
 from client.agents.registry import Player, factory_of, titles
+from client.local_game import BadAction, PlayedGame, Watch, play_match, points_of
 from client.players import Instance, log
 from physics import Table
+from protocol import GameOver, GameTerms, OutcomeView, View
 from referee import Action, EightBall, Game, Phase, SimulationBudget
 from referee.play import LINKS, Budgets, MatchSeed, NoiseModel, Refused, Stroke
-from referee.play.local import BadAction, PlayedGame, Watch, play_match, points_of
-from referee.wire import GameOver, GameTerms, OutcomeView, View
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 from client.agent import Agent, AgentFactory
 from client.simulator import Simulator
+from protocol import GameOver, View
 from referee import Action, SimulationBudget
-from referee.wire import GameOver, View
 
 log = logging.getLogger("pooliad.agent")
 

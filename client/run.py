@@ -14,9 +14,9 @@ from client.errors import Conflict, StaleVersion, Unprocessable
 from client.http import Pooliad
 from client.players import Players
 from client.retry import Retry
+from protocol import GameOver, MatchOver, SeedWanted, Turn, View
+from protocol.matches import MatchStatus
 from referee.play.seeds import SEED_BYTES
-from referee.wire import GameOver, MatchOver, SeedWanted, Turn, View
-from referee.wire.matches import MatchStatus
 
 log = logging.getLogger("pooliad.agent")
 

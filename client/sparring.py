@@ -7,8 +7,8 @@ from client.errors import AgentNotFound
 from client.http import Pooliad
 from client.retry import Retry
 from client.run import run_agent
+from protocol import AgentView, ClockTerms, MatchOver, MatchRequest, NoiseTerms, Position
 from referee import Game
-from referee.wire import AgentView, ClockTerms, MatchOver, MatchRequest, NoiseTerms, Position
 
 
 def spar(

@@ -1,6 +1,6 @@
 """The referee: World Standardized 8-ball as a pure state machine, and the stroke that everything plays.
 
-The record of a game and the messages on the wire are imported by name: ``referee.record``, ``referee.wire``.
+The record of a game and the messages on the wire are imported by name: ``referee.record``, ``protocol``.
 """
 
 from referee.errors import InvalidAction, InvalidGame, RefereeError

@@ -11,21 +11,22 @@ from starlette.exceptions import HTTPException
 
 from server import failpoints, openapi
 from server.errors import ServerError, handle_fault, handle_framework_error, handle_server_error
-from server.ops.farewell import Farewell
+from server.http.body_gate import BodyGate
+from server.http.drain import Farewell
 from server.ops.telemetry import Telemetry
 from server.routes import ROUTERS
 from server.security import keys
-from server.security.body_gate import BodyGate
-from server.services import events, warmup
-from server.services.context import Context
-from server.services.heartbeat import Heartbeat
-from server.services.house_bots import House
-from server.services.matches import abort_foreign
-from server.services.relay import Relay
-from server.services.retention import Retention
-from server.services.spectators import Spectators
-from server.services.time import DatabaseTime, TimeSource
-from server.services.timer import Timer
+from server.services.accounts.house_processes import House
+from server.services.matches.matches import abort_foreign
+from server.services.play.clock.flag import Timer
+from server.services.runtime import warmup
+from server.services.runtime.context import Context
+from server.services.runtime.heartbeat import Heartbeat
+from server.services.runtime.relay import Relay
+from server.services.runtime.retention import Retention
+from server.services.runtime.time import DatabaseTime, TimeSource
+from server.services.tournaments import progress
+from server.services.watch.spectators import Spectators
 from server.settings import Settings
 from server.store.database import Database
 from server.store.upgrade import upgrade
@@ -49,7 +50,7 @@ def create_app(settings: Settings) -> FastAPI:
         database,
         DatabaseTime(database.clock) if database.is_shared else TimeSource(),
         failpoint=failpoints.parse(settings.failpoint),
-        match_over=events.match_over,
+        match_over=progress.match_over,
     )
     app = FastAPI(
         title="Pooliad",

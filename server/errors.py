@@ -47,7 +47,7 @@ from starlette.responses import Response
 from starlette.routing import Match
 
 from physics import PhysicsError
-from referee.wire import PROBLEM_JSON, Fault, Problem, ProblemCode, shown
+from protocol import PROBLEM_JSON, Fault, Problem, ProblemCode, shown
 
 log = logging.getLogger("pooliad.server")
 

@@ -12,7 +12,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from server.errors import SettingsError, Unavailable
 from server.security import keys
-from server.services.time import TimeSource
+from server.services.runtime.time import TimeSource
 from server.settings import Settings
 from server.store.database import Database
 from server.store.upgrade import upgrade

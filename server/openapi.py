@@ -7,7 +7,7 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
-from referee.wire import (
+from protocol import (
     AcceptRequest,
     AgentRequest,
     BatchRequest,
@@ -25,7 +25,7 @@ from referee.wire import (
     TournamentRequest,
     VoidRequest,
 )
-from server.routes.describe import TOKEN_SCHEME
+from server.http.describe import TOKEN_SCHEME
 
 REFERENCE = "#/components/schemas/{model}"
 REQUESTS: tuple[type[BaseModel], ...] = (

@@ -18,10 +18,10 @@ import uvicorn
 
 from server.app import create_app, prepare
 from server.errors import SettingsError
+from server.http.body_gate import LONGEST_HEAD
+from server.http.connections import http_protocol
 from server.ops import logs
-from server.security.body_gate import LONGEST_HEAD
-from server.security.connections import http_protocol
-from server.services.context import Context
+from server.services.runtime.context import Context
 from server.settings import Settings
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)

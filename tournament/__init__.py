@@ -4,7 +4,6 @@ No network, no processes, no clock: whoever runs an event asks it what is due an
 """
 
 from tournament.errors import InvalidResult, InvalidSpec, TournamentError
-from tournament.event import Event, forfeit
 from tournament.noise_plan import NoisePlan
 from tournament.pairings import Bye, Due, Pair, Plan
 from tournament.presets import PRESETS
@@ -13,6 +12,7 @@ from tournament.seeds import game_seeds
 from tournament.spec import Drawn, Entrant, Format, Seeding, Spec, TieBreak
 from tournament.sprt_terms import SprtTerms
 from tournament.standings import Standing, standings
+from tournament.tournament import Event, forfeit
 
 __all__ = [
     "PRESETS",

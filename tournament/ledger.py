@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 from tournament.errors import InvalidResult, TournamentError
-from tournament.event import Event
 from tournament.results import GameResult
+from tournament.tournament import Event
 
 
 class Entry(Protocol):

@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from tournament.event import Event
 from tournament.formats.order import seeded
 from tournament.results import GameResult
 from tournament.spec import Format, TieBreak
+from tournament.tournament import Event
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,8 +23,7 @@ from client.adapters.lines import LineProcess
 from client.agent import Agent
 from client.errors import AgentFailed, NonsenseAnswer
 from physics import PhysicsError
-from referee import Action, RefereeError
-from referee.wire import (
+from protocol import (
     BatchRequest,
     DecisionRequest,
     GameOver,
@@ -34,6 +33,7 @@ from referee.wire import (
     View,
     simulations,
 )
+from referee import Action, RefereeError
 
 log = logging.getLogger("pooliad.agent")
 

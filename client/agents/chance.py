@@ -4,7 +4,7 @@ import hashlib
 
 import numpy as np
 
-from referee.wire import View
+from protocol import View
 
 
 def generator(seed: int | None, view: View) -> np.random.Generator:

@@ -7,8 +7,8 @@ import physics
 from client.agent import Agent
 from client.agents.chance import generator
 from client.geometry import Point, is_free
+from protocol import View
 from referee import SAFETY, Action, Call, CueBallArea
-from referee.wire import View
 
 Choice = TypeVar("Choice")
 

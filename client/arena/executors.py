@@ -15,7 +15,7 @@ from typing import Any, Protocol
 
 from client.arena.confine import end_with_parent
 from client.arena.directory import EventError
-from client.arena.serving import find_here
+from client.arena.hosted_agents import find_here
 from client.arena.tasks import PairDone, PairTask, play_pair
 
 RETRIES = 3

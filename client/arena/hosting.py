@@ -92,8 +92,8 @@ class Hosting:
         return self.agent.partition(":")[2] or None if self.kind is Kind.REMOTE else None
 
     def command(self, seed: int) -> list[str]:
-        """The command line of its process (``client.arena.serving``); ``seed`` is for agents of this package."""
-        here = [sys.executable, "-P", "-m", "client.arena.serving", self.agent]
+        """The command line of its process (``client.arena.hosted_agents``); ``seed`` is for agents of this package."""
+        here = [sys.executable, "-P", "-m", "client.arena.hosted_agents", self.agent]
         return [*here, "--seed", str(seed), "--options", json.dumps(dict(self.options))]
 
     def to_dict(self) -> dict[str, Any]:

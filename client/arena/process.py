@@ -13,10 +13,10 @@ from client.arena.confine import confined
 from client.arena.cores import CoreLease
 from client.arena.hosting import Hosting
 from client.errors import AgentFailed
+from client.local_game import Lost
+from protocol import GameOver, Turn, View
 from referee import Action, EndReason, SimulationBudget
-from referee.play.local import Lost
 from referee.record.canonical import parse
-from referee.wire import GameOver, Turn, View
 
 LONGEST_ANSWER = 65_536
 """Bytes in a line of an answer; an action has a few hundred."""
@@ -29,7 +29,7 @@ SHOWN = 60
 
 
 class ProcessSeat:
-    """``client.arena.serving`` at the table.
+    """``client.arena.hosted_agents`` at the table.
 
     A turn is a line ``{"type": "turn", "game": …, "view": …}`` on its standard input, as ``GET /v1/turns`` gives it;
     the answer is the action as a line on its standard output, ``simulated`` beside it if it counts simulated shots.

@@ -14,8 +14,8 @@ from pydantic import ValidationError
 from client.arena.directory import EventDirectory, EventError, write_whole
 from client.arena.hosting import Hosting, Kind
 from client.arena.process import ProcessSeat
+from client.arena.resumable_game import LONGEST_REPORT
 from client.arena.runner import Observer
-from client.arena.table import LONGEST_REPORT
 from client.arena.terms import Terms
 from client.errors import (
     ApiError,
@@ -28,12 +28,12 @@ from client.errors import (
     Unprocessable,
 )
 from client.http import Pooliad
+from client.local_game import TRIES, Lost
 from client.retry import Retry
+from protocol import GameOver, NumberedEntry, SeedWanted, TournamentRequest, Turn, View
 from referee import Action, EndReason, Outcome, SimulationBudget
-from referee.play.local import TRIES, Lost
 from referee.play.seeds import SEED_BYTES
 from referee.record import read_record
-from referee.wire import GameOver, NumberedEntry, SeedWanted, TournamentRequest, Turn, View
 from tournament import Event, GameResult, Spec, TournamentError
 from tournament.ledger import Ledger
 

@@ -10,8 +10,8 @@ from client.agents.registry import load
 from client.arena.hosting import Hosting, Kind
 from client.arena.process import ProcessSeat
 from client.players import Instance
+from protocol import GameOver, View
 from referee import Action, SimulationBudget
-from referee.wire import GameOver, View
 
 
 class Seat(Protocol):
@@ -24,7 +24,7 @@ class Seat(Protocol):
         """The answer to a turn; ``seconds`` is what the clock has left, None without one.
 
         Raises:
-            referee.play.local.Lost: the player is out of the game.
+            client.local_game.Lost: the player is out of the game.
             Exception: a bad answer; it may be asked again.
         """
 

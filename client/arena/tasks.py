@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from client.arena.hosting import Hosting
+from client.arena.resumable_game import GameTask, play
 from client.arena.seats import Seat, seat_of
-from client.arena.table import GameTask, play
 from tournament import GameResult
 
 MOST_REPORTS = 100

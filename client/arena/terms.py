@@ -8,7 +8,7 @@ from typing import Any, Self
 
 from client.arena.directory import EventError
 from client.arena.hosting import Hosting
-from client.arena.table import GameTask
+from client.arena.resumable_game import GameTask
 from client.arena.tasks import PairTask
 from physics.errors import shown
 from tournament import Due, Spec, TournamentError, game_seeds

@@ -10,8 +10,8 @@ from client.cli.output import USAGE, Json, emit, fail, say
 from client.cli.players import load_player
 
 if TYPE_CHECKING:
+    from protocol import MatchOver
     from referee import Game
-    from referee.wire import MatchOver
 
 Name = Annotated[str, typer.Argument(help="random, greedy, search:seconds=0.3, module:Class, or stdio:COMMAND.")]
 Url = Annotated[str, typer.Option(envvar="POOLIAD_URL", help="Address of the server.")]
@@ -87,7 +87,7 @@ def _position(file: Path | None) -> "Game | None":
     """The position in a file; leaves the command when it is none."""
     from pydantic import ValidationError
 
-    from referee.wire import Position
+    from protocol import Position
 
     if file is None:
         return None

@@ -26,10 +26,10 @@ def demo(
     """Play a real 8-ball match: embedded server and database, two agents as processes, over HTTP."""
     import secrets
 
+    from client.cli.demo_session import Stage
     from client.cli.players import load_player
     from client.cli.processes import children
     from client.cli.serve import require_server
-    from client.cli.stage import Stage
 
     require_server()
     for name in agents:

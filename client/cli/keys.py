@@ -12,8 +12,8 @@ from client.cli.output import USAGE, fail
 from client.cli.serve import require_server
 
 if TYPE_CHECKING:
+    from protocol import KeyView
     from referee.record import PublicKey
-    from referee.wire import KeyView
 
 Database = Annotated[
     str | None, typer.Option(envvar="POOLIAD_DATABASE", help="The server's database; its own default unless given.")
@@ -79,7 +79,7 @@ def _listed(text: bytes, given: str) -> list["PublicKey"]:
     """The keys in an answer of `GET /v1/keys`."""
     from pydantic import ValidationError
 
-    from referee.wire import KeyList
+    from protocol import KeyList
 
     try:
         return [_of_view(view) for view in KeyList.model_validate_json(text).keys]

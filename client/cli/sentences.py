@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from referee.wire import StrokeView
+from protocol import StrokeView
 
 _SEAT = re.compile(r"\b[Pp]layer ([01])\b")
 """How a ruling, which knows no names, speaks of the players."""

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from client.http import Pooliad
-from referee.wire import GameSummary, StrokeView
+from protocol import GameSummary, StrokeView
 
 LOOK_EVERY = 0.1
 """Seconds between two looks at a running match."""

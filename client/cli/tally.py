@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from referee.wire import GameSummary, StrokeView
-from referee.wire.shots import CallRequest
+from protocol import GameSummary, StrokeView
+from protocol.shots import CallRequest
 
 
 @dataclass(slots=True)

@@ -330,6 +330,6 @@ def _duration(seconds: float) -> str:
 
 
 def _find_here() -> None:
-    from client.arena.serving import find_here
+    from client.arena.hosted_agents import find_here
 
     find_here()

@@ -13,9 +13,9 @@ from client.compliance.proxy import Exchange, Proxy
 from client.compliance.situations import SITUATIONS, Situation, Twist
 from client.errors import ApiError
 from client.http import Pooliad
+from protocol import AgentToken, ClockTerms, MatchRequest, MatchView, NoiseTerms
 from referee import Action, Decision
 from referee.play import MatchSeed
-from referee.wire import AgentToken, ClockTerms, MatchRequest, MatchView, NoiseTerms
 
 LOOK_EVERY = 0.05
 """Seconds between looks at what has happened."""

@@ -11,7 +11,7 @@ import httpx2
 
 from client.compliance.bodies import FRAMING, read_body
 from client.compliance.situations import Twist
-from referee.wire import PROBLEM_JSON, Problem, ProblemCode
+from protocol import PROBLEM_JSON, Problem, ProblemCode
 
 PATIENCE = 90.0
 """Seconds the server may take; a long poll waits up to sixty."""

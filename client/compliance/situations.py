@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, Final
 
-from referee.wire import Position
+from protocol import Position
 
 
 class Twist(StrEnum):

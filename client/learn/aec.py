@@ -8,7 +8,7 @@ from pettingzoo import AECEnv
 
 from client import notation
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe
-from client.learn.course import Course, referee_of
+from client.learn.episodes import Course, referee_of
 from physics import Table
 from referee import Game, NoiseModel
 

@@ -16,7 +16,7 @@ from physics.constants import N_BALLS, N_POCKETS, V_MAX
 from physics.cue import are_playable, min_elevations
 from referee import Action, CueBallArea, Decision, Game, Group, Phase
 from referee.play.batch import Strokes, groups_of_shooters
-from referee.rules.verdicts import SAFETY_CALL, target_balls
+from referee.rules.batch_rulings import SAFETY_CALL, target_balls
 
 Vector = NDArray[np.float32]
 Floats = NDArray[np.float64]

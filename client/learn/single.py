@@ -9,7 +9,7 @@ from gymnasium.spaces import Box
 
 from client import notation
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe
-from client.learn.course import Course, referee_of
+from client.learn.episodes import Course, referee_of
 from physics import Table
 from referee import Game, NoiseModel
 

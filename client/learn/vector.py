@@ -11,7 +11,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe_all, strokes
-from client.learn.course import Course, referee_of, reward
+from client.learn.episodes import Course, referee_of, reward
 from physics import Table
 from physics.shot import FIELDS
 from referee import Game, NoiseModel

@@ -1,6 +1,6 @@
 """Playing: seeds and commitment, noise, the stroke (one loop body for everyone), clocks, budgets.
 
-``referee.play.local`` plays whole games without a server; it is imported by name, because it needs the wire.
+``client.local_game`` plays whole games without a server; it is imported by name, because it needs the wire.
 """
 
 from referee.play.budget import Budgets, BudgetSpent, GrantedBudget, SimulationBudget

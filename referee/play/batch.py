@@ -12,10 +12,10 @@ from physics.facts import NEVER
 from referee.game import SAFETY, Action, Call, CueBallArea, Game, Group, Phase
 from referee.play.noise import NoiseModel
 from referee.rules import EightBall
+from referee.rules.batch_rulings import OPEN, SAFETY_CALL, Verdicts, read_verdicts
 from referee.rules.calls import assign
 from referee.rules.judge import next_game
-from referee.rules.stroke import CUE_BALL
-from referee.rules.verdicts import OPEN, SAFETY_CALL, Verdicts, read_verdicts
+from referee.rules.stroke_facts import CUE_BALL
 
 _GROUPS = (Group.SOLIDS, Group.STRIPES)
 

@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 from physics.facts import NEVER
 from referee.game import EIGHT, Decision, Evidence, RuleId
 from referee.rules.fouls import no_ball_struck, worst
-from referee.rules.stroke import Finding, Stroke
+from referee.rules.stroke_facts import Finding, Stroke
 
 BALLS_TO_CUSHION = 4
 """R9: different object balls a legal break without a pocketed ball drives to cushions."""

@@ -2,7 +2,7 @@
 
 from physics.facts import NEVER
 from referee.game import Call, Evidence, Group, Phase, RuleId
-from referee.rules.stroke import Finding, Stroke, group_of_ball
+from referee.rules.stroke_facts import Finding, Stroke, group_of_ball
 
 
 def called_ball_made(stroke: Stroke) -> Finding:

@@ -5,7 +5,7 @@ from physics.state import TableState
 from physics.table import Table
 from referee.game import EIGHT, SAFETY, Action, Call, Decision, Game, Phase, Refusal, RuleId, callable_balls
 from referee.rules.placement import refuse_placement
-from referee.rules.stroke import CUE_BALL
+from referee.rules.stroke_facts import CUE_BALL
 
 
 def check_action(table: Table, game: Game, action: Action) -> tuple[Refusal, ...]:

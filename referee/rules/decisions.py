@@ -7,7 +7,7 @@ from physics.table import Table
 from referee.game import CueBallArea, Decision, Game, Phase
 from referee.rules.spotting import spot
 from referee.rules.stalemate import await_rack
-from referee.rules.stroke import CUE_BALL
+from referee.rules.stroke_facts import CUE_BALL
 
 
 def decide(table: Table, game: Game, decision: Decision) -> Game:

@@ -31,7 +31,7 @@ from referee.rules.judge import Judgement, judge, rules_cited
 from referee.rules.position import begin_from
 from referee.rules.rack import new_rack
 from referee.rules.stalemate import Limits, over, stalemate, stroke_limit
-from referee.rules.stroke import read_stroke
+from referee.rules.stroke_facts import read_stroke
 from referee.rules.words import describe_decision, describe_next, describe_stroke
 
 

@@ -2,7 +2,7 @@
 
 from referee.game import EIGHT, Call, EndReason, Evidence, Outcome, RuleId
 from referee.rules.calls import called_ball_made
-from referee.rules.stroke import Finding, Stroke
+from referee.rules.stroke_facts import Finding, Stroke
 
 
 def eight_with_foul(stroke: Stroke, found: Finding) -> Finding:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from physics.facts import NEVER
 from physics.status import Status
 from referee.game import EIGHT, CueBallArea, Evidence, Phase, RuleId
-from referee.rules.stroke import CUE_BALL, Finding, Stroke
+from referee.rules.stroke_facts import CUE_BALL, Finding, Stroke
 
 MISCUES = (Status.CUE_OBSTRUCTED, Status.TIP_OFF_BALL)
 """The ways in which noise can spoil a stroke that was possible as intended."""

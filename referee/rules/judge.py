@@ -9,7 +9,7 @@ from referee.rules.ending import end_by_eight, foul_on_eight
 from referee.rules.fouls import eight_first_on_open_table
 from referee.rules.spotting import spot, spotted_balls
 from referee.rules.stalemate import dry_visits_after
-from referee.rules.stroke import Finding, Stroke
+from referee.rules.stroke_facts import Finding, Stroke
 
 
 class Judgement(NamedTuple):

@@ -5,7 +5,7 @@ from math import dist, isfinite
 from physics.constants import PLACEMENT_TOLERANCE
 from physics.table import Table
 from referee.game import CueBallArea, Game, Refusal, RuleId
-from referee.rules.stroke import CUE_BALL
+from referee.rules.stroke_facts import CUE_BALL
 
 Point = tuple[float, float]
 

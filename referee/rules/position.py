@@ -8,7 +8,7 @@ from physics.table import Table
 from referee.errors import InvalidGame
 from referee.game import EIGHT, CueBallArea, Decision, Game, Phase, RuleId
 from referee.rules.breaks import OFFERED
-from referee.rules.stroke import CUE_BALL
+from referee.rules.stroke_facts import CUE_BALL
 
 STARTS = (Phase.BREAK, Phase.PLAY, Phase.DECISION)
 

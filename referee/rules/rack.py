@@ -8,7 +8,7 @@ from physics.rack import rack
 from physics.state import TableState
 from physics.table import Table
 from referee.game import EIGHT
-from referee.rules.stroke import CUE_BALL, group_of_ball
+from referee.rules.stroke_facts import CUE_BALL, group_of_ball
 
 RACK_TOLERANCE: Final = 1e-5
 """m, how far a racked ball may lie from its place in the triangle: twenty times the jitter of a rack, and

@@ -7,7 +7,7 @@ from typing import Final
 from physics.state import TableState
 from physics.table import Table
 from referee.game import EIGHT, Phase
-from referee.rules.stroke import CUE_BALL, Stroke
+from referee.rules.stroke_facts import CUE_BALL, Stroke
 
 SPOT_GAP: Final = 1e-6
 """m, least gap between a spotted ball and the cue ball: far above the 1e-9 m that counts as touching, and a

@@ -4,7 +4,7 @@ from physics.constants import POCKET_NAMES
 from physics.status import Status
 from referee.game import EIGHT, Call, CueBallArea, Decision, EndReason, Game, Phase, RuleId
 from referee.rules.calls import called_ball_made
-from referee.rules.stroke import CUE_BALL, Finding, Stroke, group_of_ball
+from referee.rules.stroke_facts import CUE_BALL, Finding, Stroke, group_of_ball
 
 DECISION_WORDS = {
     Decision.ACCEPT_TABLE: "accept the table",

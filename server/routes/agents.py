@@ -4,9 +4,10 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
-from referee.wire import AgentList, AgentRequest, AgentToken, AgentView
+from protocol import AgentList, AgentRequest, AgentToken, AgentView
 from server.errors import Forbidden, Invalid, NameTaken, Unauthorized, invalid_field
-from server.routes.dependencies import (
+from server.http.commands import parse_body
+from server.http.dependencies import (
     ANYBODY,
     Address,
     Authenticated,
@@ -20,9 +21,8 @@ from server.routes.dependencies import (
     Visitor,
     respond,
 )
-from server.routes.describe import OWNED, describe
-from server.services import agents
-from server.services.commands import parse_body
+from server.http.describe import OWNED, describe
+from server.services.accounts import agents
 
 router = APIRouter(prefix="/v1/agents", tags=["agents"])
 

@@ -4,7 +4,7 @@ from functools import partial
 
 from fastapi import APIRouter, Response
 
-from referee.wire import ClockLedger, DecisionRequest, ForfeitRequest, GameAnswer, ShotRequest, ShotsPage, StrokeAnswer
+from protocol import ClockLedger, DecisionRequest, ForfeitRequest, GameAnswer, ShotRequest, ShotsPage, StrokeAnswer
 from server.errors import (
     BudgetSpent,
     GameFinished,
@@ -20,9 +20,10 @@ from server.errors import (
     Unauthorized,
     VersionRequired,
 )
-from server.routes.dependencies import ANYBODY, Cursor, InHand, Limit, Moved, Reader, Sent, Server, respond
-from server.routes.describe import OWNED, describe
-from server.services import history, ledger, strokes, verdicts
+from server.http.dependencies import ANYBODY, Cursor, InHand, Limit, Moved, Reader, Sent, Server, respond
+from server.http.describe import OWNED, describe
+from server.services.play import forfeits, history, strokes
+from server.services.play.clock import ledger
 
 router = APIRouter(prefix="/v1/games/{game_id}", tags=["games"])
 
@@ -77,7 +78,7 @@ def concede(game_id: str, context: Server, move: Moved) -> Response:
 )
 def forfeit(game_id: str, context: Server, command: Sent) -> Response:
     """For the organiser, who saw a player crash, stall, stay away or break the terms."""
-    return respond(verdicts.forfeit(context, game_id, command))
+    return respond(forfeits.forfeit(context, game_id, command))
 
 
 @router.get(

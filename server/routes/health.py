@@ -7,9 +7,9 @@ from prometheus_client import CONTENT_TYPE_PLAIN_0_0_4
 
 from referee.record import this_engine
 from server.errors import Draining, Unavailable
-from server.routes.dependencies import Server
-from server.routes.describe import describe
-from server.services.context import Context
+from server.http.dependencies import Server
+from server.http.describe import describe
+from server.services.runtime.context import Context
 from server.store.upgrade import head, is_current
 
 router = APIRouter(tags=["operations"])

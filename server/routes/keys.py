@@ -2,10 +2,10 @@
 
 from fastapi import APIRouter
 
-from referee.wire import KeyList
+from protocol import KeyList
 from server.errors import Unauthorized
-from server.routes.dependencies import ANYBODY, Server
-from server.routes.describe import describe
+from server.http.dependencies import ANYBODY, Server
+from server.http.describe import describe
 from server.security import keys
 
 router = APIRouter(prefix="/v1/keys", tags=["keys"])

@@ -4,11 +4,11 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
-from referee.wire import AcceptRequest, ClientSeedRequest, MatchList, MatchRequest, MatchView
+from protocol import AcceptRequest, ClientSeedRequest, MatchList, MatchRequest, MatchView
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
-from server.routes.dependencies import ANYBODY, Limit, Place, Search, Sent, Server, respond
-from server.routes.describe import NO_NUL, OWNED, describe
-from server.services import matches, openings
+from server.http.dependencies import ANYBODY, Limit, Place, Search, Sent, Server, respond
+from server.http.describe import NO_NUL, OWNED, describe
+from server.services.matches import matches, player_seeds
 
 router = APIRouter(prefix="/v1/matches", tags=["matches"])
 
@@ -72,7 +72,7 @@ def accept(match_id: str, context: Server, command: Sent) -> Response:
 )
 def contribute(match_id: str, context: Server, command: Sent) -> Response:
     """Each player once, after the commitment was published and before the first rack."""
-    return respond(openings.contribute(context, match_id, command))
+    return respond(player_seeds.contribute(context, match_id, command))
 
 
 @router.post(

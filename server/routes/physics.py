@@ -8,7 +8,7 @@ from collections.abc import Callable
 from fastapi import APIRouter, Response
 from pydantic import BaseModel
 
-from referee.wire import (
+from protocol import (
     BatchAnswer,
     BatchRequest,
     MinElevationAnswer,
@@ -17,11 +17,12 @@ from referee.wire import (
     SimulateRequest,
 )
 from server.errors import BudgetSpent, Forbidden, GameFinished
-from server.routes.dependencies import Body, ContentType, Sent, Server, Simulating
-from server.routes.describe import OWNED, describe
-from server.services import physics, simulations
-from server.services.commands import Command, parse, parse_body
-from server.services.context import Context
+from server.http.commands import Command, parse, parse_body
+from server.http.dependencies import Body, ContentType, Sent, Server, Simulating
+from server.http.describe import OWNED, describe
+from server.services.physics import simulations
+from server.services.play import budget
+from server.services.runtime.context import Context
 
 GAME_PROBLEMS = (*OWNED, GameFinished, BudgetSpent)
 """What naming a game may be answered with."""
@@ -39,9 +40,9 @@ async def simulate(context: Server, _caller: Simulating, command: Sent) -> Respo
 
     def work() -> SimulateAnswer:
         request = parse(command, SimulateRequest)
-        simulations.count(context, command, request.game, 1)
+        budget.count(context, command, request.game, 1)
         context.metrics.simulated.inc()
-        return physics.simulate(request)
+        return simulations.simulate(request)
 
     return await _answered(context, work)
 
@@ -59,9 +60,9 @@ async def simulate_batch(context: Server, _caller: Simulating, command: Sent) ->
 def _batch(context: Context, command: Command) -> BatchAnswer:
     request = parse(command, BatchRequest)
     context.limits.count_shots(command.caller, len(request.shots))
-    simulations.count(context, command, request.game, len(request.shots))
+    budget.count(context, command, request.game, len(request.shots))
     context.metrics.simulated.inc(len(request.shots))
-    return physics.simulate_batch(request, context.physics.require_open)
+    return simulations.simulate_batch(request, context.physics.require_open)
 
 
 @router.post(
@@ -71,7 +72,9 @@ def _batch(context: Context, command: Command) -> BatchAnswer:
 )
 async def min_elevation(context: Server, _caller: Simulating, body: Body, content_type: ContentType = None) -> Response:
     """null when there is none up to the table's greatest."""
-    return await _answered(context, lambda: physics.min_elevation(parse_body(body, content_type, MinElevationRequest)))
+    return await _answered(
+        context, lambda: simulations.min_elevation(parse_body(body, content_type, MinElevationRequest))
+    )
 
 
 async def _answered(context: Context, work: Callable[[], BaseModel]) -> Response:

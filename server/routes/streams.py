@@ -7,10 +7,10 @@ from fastapi import APIRouter, Depends, Header, Query, Request, Response
 from fastapi.sse import EventSourceResponse
 
 from server.errors import BadHeader, Draining, Invalid, NotFound, Unauthorized, invalid_field
-from server.routes.dependencies import A_PLACE_TO_WATCH, Server
-from server.routes.describe import EVENT_STREAM, NO_NUL, NUMBER, describe
-from server.services import pages
-from server.services.spectators import Spectators
+from server.http.dependencies import A_PLACE_TO_WATCH, Server
+from server.http.describe import EVENT_STREAM, NO_NUL, NUMBER, describe
+from server.services.watch.spectators import Spectators
+from server.store import paging
 
 router = APIRouter(prefix="/v1", tags=["streams"])
 
@@ -69,10 +69,10 @@ async def watch_games(
 
 def _sequence(header: str | None, query: str | None) -> int:
     """The id of the last event the caller has; 0 for none. The header, the later news, goes before the address."""
-    after = pages.number("after", query, "the id of an event")
+    after = paging.number("after", query, "the id of an event")
     if header is None:
         return after
-    if not (header.isascii() and header.isdigit() and len(header) <= pages.LONGEST_NUMBER):
+    if not (header.isascii() and header.isdigit() and len(header) <= paging.LONGEST_NUMBER):
         raise BadHeader("Last-Event-ID is no event's id", field="Last-Event-ID", value=header, allowed="digits")
     return int(header)
 

@@ -2,11 +2,11 @@
 
 from fastapi import APIRouter, Response
 
-from referee.wire import InvitationRequest, Invitations, TokenList, TokenRequest, TokenSecret
+from protocol import InvitationRequest, Invitations, TokenList, TokenRequest, TokenSecret
 from server.errors import Forbidden, Invalid, WrongStatus
-from server.routes.dependencies import Authenticated, Limit, Place, Sent, Server, respond
-from server.routes.describe import OWNED, describe
-from server.services import tokens
+from server.http.dependencies import Authenticated, Limit, Place, Sent, Server, respond
+from server.http.describe import OWNED, describe
+from server.services.accounts import tokens
 
 router = APIRouter(prefix="/v1", tags=["tokens"])
 

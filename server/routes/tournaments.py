@@ -4,7 +4,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
-from referee.wire import (
+from protocol import (
     DisqualifyRequest,
     EntriesPage,
     StandingsView,
@@ -14,9 +14,9 @@ from referee.wire import (
     VoidRequest,
 )
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
-from server.routes.dependencies import ANYBODY, Authenticated, Cursor, Limit, Place, Search, Sent, Server, respond
-from server.routes.describe import OWNED, describe
-from server.services import events, tournaments
+from server.http.dependencies import ANYBODY, Authenticated, Cursor, Limit, Place, Search, Sent, Server, respond
+from server.http.describe import OWNED, describe
+from server.services.tournaments import progress, tournaments
 
 router = APIRouter(prefix="/v1/tournaments", tags=["tournaments"])
 
@@ -46,7 +46,7 @@ def listing(
         str | None,
         Query(
             description="created, running, paused, finished or aborted",
-            json_schema_extra={"enum": list(events.STATUSES)},
+            json_schema_extra={"enum": list(progress.STATUSES)},
         ),
     ] = None,
 ) -> TournamentList:

@@ -4,11 +4,11 @@ from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Query, Request, Response
 
-from referee.wire import TurnMessage
+from protocol import TurnMessage
 from server.errors import Forbidden, Invalid, invalid_field
-from server.routes.dependencies import Authenticated, Server
-from server.routes.describe import describe
-from server.services.turns import wait_for_message
+from server.http.dependencies import Authenticated, Server
+from server.http.describe import describe
+from server.services.play.turns import wait_for_message
 
 WAIT: Final[dict[str, Any]] = {"type": "number", "minimum": 0, "maximum": 60, "default": 0, "examples": [30]}
 

@@ -5,9 +5,9 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, insert, select, update
 
+from protocol import KeyList, KeyView
 from referee.play.clock import SECOND_NS
 from referee.record import SigningKey
-from referee.wire import KeyList, KeyView
 from server.store.locks import only_one
 from server.store.tables import signing_keys
 

@@ -8,7 +8,7 @@ import threading
 from dataclasses import dataclass
 
 from server.errors import TooManyRequests
-from server.services.time import TimeSource
+from server.services.runtime.time import TimeSource
 
 SECOND = 1e9
 MOST_BUCKETS = 10_000

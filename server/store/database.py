@@ -15,7 +15,7 @@ from sqlalchemy import Connection, Engine, delete, insert
 
 from server.errors import ServerError
 from server.store import files, outages, postgresql, sqlite
-from server.store.membership import AloneMembership, Membership, SharedMembership
+from server.store.process_lock import AloneMembership, Membership, SharedMembership
 from server.store.tables import answers
 
 ROOM: Final = 1024 * 1024

@@ -12,8 +12,8 @@ from support.players import Potter
 
 import physics
 from client import notation
+from protocol import View
 from referee.record import verify_record
-from referee.wire import View
 
 FRAME = 0.11
 """Width of the frame drawn around the cushion noses, m."""

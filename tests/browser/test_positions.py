@@ -9,8 +9,8 @@ import pytest
 from support.players import Potter
 
 import physics
+from client.local_game import PlayedGame, play_game
 from referee import Action, EightBall, MatchSeed, NoiseModel
-from referee.play.local import PlayedGame, play_game
 
 TOLERANCE = 1e-9
 AT = """async ([table, entry, times]) => {

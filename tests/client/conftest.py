@@ -16,8 +16,8 @@ from support.require import require
 
 import client
 from client import MatchRequest
+from protocol import AgentToken, MatchView
 from referee.play import MatchSeed
-from referee.wire import AgentToken, MatchView
 
 
 class Sync:

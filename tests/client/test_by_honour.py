@@ -9,8 +9,8 @@ import client
 import physics
 from client.errors import BudgetSpent as RefusedForBudget
 from client.run import run_agent
+from protocol import ClockTerms
 from referee.record import verify_record
-from referee.wire import ClockTerms
 
 BREAK = client.Action(shot=physics.Shot(9.0, 270.0, 5.0), cue_ball=(0.558, 1.75))
 CONCEDE = client.Action(decision="concede")

@@ -9,8 +9,8 @@ import pytest
 import client
 import physics
 from client import errors
+from protocol import DisqualifyRequest, TokenRequest, TournamentRequest, VoidRequest
 from referee.play import MatchSeed
-from referee.wire import DisqualifyRequest, TokenRequest, TournamentRequest, VoidRequest
 
 TABLE = physics.Table.olympiad()
 STATE, SHOT = physics.TableState.from_positions({0: (0.5, 1.7), 3: (0.5, 0.5)}), physics.Shot(1.0, 270.0, 5.0)

@@ -8,7 +8,7 @@ import pytest
 import client
 import physics
 from client import errors
-from referee.wire import Problem, ProblemCode
+from protocol import Problem, ProblemCode
 
 AGENTS = {"agents": [], "next_cursor": None}
 

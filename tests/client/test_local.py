@@ -7,8 +7,8 @@ import pytest
 import client
 import physics
 from client.local import over_message
+from client.local_game import play_game
 from referee import EightBall, MatchSeed, NoiseModel
-from referee.play.local import play_game
 from referee.record import verify_record
 
 CONCEDE = client.Action(decision="concede")

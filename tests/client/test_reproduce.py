@@ -11,7 +11,7 @@ from support.require import require
 import client
 import physics
 from client import notation
-from referee.wire import SimulateRequest
+from protocol import SimulateRequest
 
 
 @pytest.fixture(scope="module")

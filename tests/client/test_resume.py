@@ -12,8 +12,8 @@ import pytest
 
 import client
 from client.run import run_agent
+from protocol import MatchRequest
 from referee.record import verify_record
-from referee.wire import MatchRequest
 
 ORGANISER = "organiser-token-of-the-tests-0123456789"
 

@@ -10,7 +10,7 @@ import pytest
 import client
 import physics
 from client.run import run_agent
-from referee.wire import TURN_MESSAGE, MatchOver
+from protocol import TURN_MESSAGE, MatchOver
 
 BREAK = client.Action(shot=physics.Shot(9.0, 270.0, 5.0), cue_ball=(0.558, 1.75))
 CONCEDE = client.Action(decision="concede")

@@ -20,8 +20,8 @@ from client.agents.search.shots import Tables
 from client.agents.search.sight import ROOM, Sight
 from client.agents.search.thinking import AIMS, MOST_POTS
 from client.errors import AgentNotFound
+from protocol import ClockView, GameTerms, NoiseView, View
 from referee import Action, CueBallArea, Decision, EightBall, EndReason, Game, Group, Phase
-from referee.wire import ClockView, GameTerms, NoiseView, View
 
 TABLE = physics.Table.olympiad()
 RULES = EightBall(TABLE)

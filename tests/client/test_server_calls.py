@@ -8,7 +8,7 @@ import client
 import physics
 from client import errors
 from client.http import Pooliad
-from referee.wire import GameOver, MatchOver, NoiseTerms, Turn
+from protocol import GameOver, MatchOver, NoiseTerms, Turn
 
 TABLE = physics.Table.olympiad()
 LEGAL_BREAK = client.Action(shot=physics.Shot(9.0, 270.0, 5.0), cue_ball=(0.558, 1.75))

@@ -6,17 +6,17 @@ from typing import get_args
 import pytest
 from support.documents import PAGES
 
+import protocol
 from physics import Status
 from physics.facts import Facts
-from referee import wire
-from referee.wire.outcomes import BallStateView, EventView
-from referee.wire.physics import FactsView
+from protocol.outcomes import BallStateView, EventView
+from protocol.physics import FactsView
 
 SECTION = re.search(r"\n## The physics\n(.*?)\n## ", PAGES["docs/protocol.md"].read_text(encoding="utf-8"), re.DOTALL)[
     1
 ]
 ROWS = {name for cell in re.findall(r"^\| ([^|]+) \|", SECTION, re.MULTILINE) for name in re.findall(r"`(\w+)`", cell)}
-MODELS = (wire.SimulateAnswer, wire.BatchRow, BallStateView, EventView)
+MODELS = (protocol.SimulateAnswer, protocol.BatchRow, BallStateView, EventView)
 FIELDS = {name for model in MODELS for name in model.model_fields} | set(FactsView.__annotations__)
 
 
@@ -24,7 +24,10 @@ def test_every_field_has_its_row_and_no_row_is_of_another_field():
     assert ROWS == FIELDS
     assert "`results`" in SECTION
     assert "`theta`" in SECTION
-    assert set(wire.BatchAnswer.model_fields) | set(wire.MinElevationAnswer.model_fields) == {"results", "theta"}
+    assert set(protocol.BatchAnswer.model_fields) | set(protocol.MinElevationAnswer.model_fields) == {
+        "results",
+        "theta",
+    }
 
 
 @pytest.mark.parametrize(
@@ -40,5 +43,5 @@ def test_the_facts_in_the_answer_are_those_of_the_physics():
 
 
 def test_the_openapi_names_the_facts():
-    schema = wire.SimulateAnswer.model_json_schema(mode="serialization")
+    schema = protocol.SimulateAnswer.model_json_schema(mode="serialization")
     assert set(schema["$defs"]["FactsView"]["properties"]) == set(FactsView.__annotations__)

@@ -73,7 +73,7 @@ def base(wheel: Path, new_environment: Callable[[str], Environment]) -> Environm
 
 IMPORTS = """
 import importlib.util, pathlib, sys
-import physics, referee, referee.wire, client, client.geometry
+import physics, referee, protocol, client, client.geometry
 from client import Agent, AsyncPooliad, Pooliad, play, run_agent
 from client.agents.greedy import GreedyAgent
 print([name for name in ("fastapi", "starlette", "uvicorn", "sqlalchemy", "alembic") if importlib.util.find_spec(name)])

@@ -8,7 +8,7 @@ from contextlib import closing
 
 import pytest
 
-from referee.wire import View
+from protocol import View
 
 
 @pytest.fixture

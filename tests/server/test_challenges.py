@@ -3,7 +3,7 @@
 import pytest
 
 from physics import Table
-from server.services.challenges import MOST_WAITING
+from server.services.matches.challenges import MOST_WAITING
 
 
 def terms(*players, **more):

@@ -6,9 +6,9 @@ import pytest
 from sqlalchemy import insert
 from support.events import result_of, spec_of
 
-from server.services import events, tournament_views
-from server.services.context import Context
-from server.services.courses import MOST_KEPT, Course, Courses
+from server.services.runtime.context import Context
+from server.services.tournaments import progress, tournament_views
+from server.services.tournaments.tournament_cache import MOST_KEPT, Course, Courses
 from server.settings import Settings
 from server.store.database import Database
 from server.store.tables import agents, tournaments
@@ -31,7 +31,7 @@ def context(new_database):
             writing.connection.execute(insert(agents).values(id=name, name=name, house=False, created_at=0))
         row |= {"agents": {name: name for name in SPEC.names}, "created_at": 0}
         writing.connection.execute(insert(tournaments).values(row))
-        events.note(writing, events.find(writing.connection, "cup"), "pause", "organiser", {})
+        progress.note(writing, progress.find(writing.connection, "cup"), "pause", "organiser", {})
     yield made
     database.dispose()
 
@@ -40,7 +40,9 @@ def note_result(writing, number):
     """Note that the first player won the n-th game."""
     due = Event(SPEC).due[number]
     result = result_of(due, due.pair.players.index("a"), record="x").to_dict()
-    events.note(writing, events.hold(writing.connection, "cup"), events.RESULT, events.SERVER, {"result": result})
+    progress.note(
+        writing, progress.hold(writing.connection, "cup"), progress.RESULT, progress.SERVER, {"result": result}
+    )
 
 
 def note_in_vain(context):
@@ -51,7 +53,7 @@ def note_in_vain(context):
 
 def wins(context):
     with context.database.reading() as connection:
-        view = tournament_views.standings_view(context, connection, events.find(connection, "cup"))
+        view = tournament_views.standings_view(context, connection, progress.find(connection, "cup"))
     return {line.name: line.wins for line in view.standings}
 
 
@@ -76,8 +78,8 @@ def test_what_was_rolled_back_never_was(context):
     assert wins(context) == {"a": 2, "b": 0}
     with context.database.reading() as connection:
         fresh = Context(Settings(), context.database)
-        row = events.find(connection, "cup")
-        assert events.course(fresh, connection, row) == events.course(context, connection, row)
+        row = progress.find(connection, "cup")
+        assert progress.course(fresh, connection, row) == progress.course(context, connection, row)
 
 
 def test_what_another_process_wrote_is_read(context):

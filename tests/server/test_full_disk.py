@@ -15,7 +15,7 @@ from support.server_time import Stage
 
 from server.errors import Unavailable
 from server.routes.health import readiness
-from server.services import heartbeat
+from server.services.runtime import heartbeat
 
 WITHIN = 60.0
 """Seconds: heartbeats come each 0.2 s, on a busy machine later."""

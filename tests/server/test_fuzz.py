@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from physics import Table
-from referee.wire import Problem
+from protocol import Problem
 
 PATHS = (
     "/v1/agents",

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from server.errors import SettingsError
-from server.services.house import HouseBot, parse
+from server.services.accounts.house_bots import HouseBot, parse
 
 PATIENCE = 240.0
 """Seconds: after a change of the kernels a bot plays once they are compiled."""

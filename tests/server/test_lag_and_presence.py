@@ -9,8 +9,10 @@ from support.server_time import SECOND, Stage
 from referee.play import Charge, LagAllowance
 from server.errors import BudgetSpent, Forbidden, GameFinished, Invalid, KeyReused
 from server.security.callers import ORGANISER
-from server.services import heartbeat, ledger, simulations, verdicts
-from server.services.presence import Presence
+from server.services.play import budget, forfeits
+from server.services.play.clock import ledger
+from server.services.runtime import heartbeat
+from server.services.watch.presence import Presence
 
 
 @pytest.fixture
@@ -217,12 +219,12 @@ def test_the_organiser_ends_a_game_with_what_was_seen(stage, reason):
     now = stage()
     seats = now.game("ann", "bob")
     body = json.dumps({"seat": 1, "reason": reason}).encode()
-    answer = json.loads(verdicts.forfeit(now.context, seats.id, now.command(ORGANISER, body)).body)
+    answer = json.loads(forfeits.forfeit(now.context, seats.id, now.command(ORGANISER, body)).body)
     assert answer["outcome"] == {"winner": 0, "reason": reason, "rule": "R48"}
-    again = json.loads(verdicts.forfeit(now.context, seats.id, now.command(ORGANISER, body)).body)
+    again = json.loads(forfeits.forfeit(now.context, seats.id, now.command(ORGANISER, body)).body)
     assert again == answer
     with pytest.raises(GameFinished):
-        verdicts.forfeit(now.context, seats.id, now.command(ORGANISER, body, key="another"))
+        forfeits.forfeit(now.context, seats.id, now.command(ORGANISER, body, key="another"))
 
 
 def test_no_player_ends_a_game_for_the_other(stage):
@@ -230,7 +232,7 @@ def test_no_player_ends_a_game_for_the_other(stage):
     seats = now.game("ann", "bob")
     body = json.dumps({"seat": 1, "reason": "crash"}).encode()
     with pytest.raises(Forbidden, match="organiser"):
-        verdicts.forfeit(now.context, seats.id, now.command(seats.ids[0], body))
+        forfeits.forfeit(now.context, seats.id, now.command(seats.ids[0], body))
 
 
 @pytest.mark.parametrize("body", [{"seat": 2}, {"seat": 0, "reason": "time_out"}, {"reason": "crash"}, {"seat": True}])
@@ -238,7 +240,7 @@ def test_a_verdict_that_is_none_is_refused(stage, body):
     now = stage()
     seats = now.game("ann", "bob")
     with pytest.raises(Invalid):
-        verdicts.forfeit(now.context, seats.id, now.command(ORGANISER, json.dumps(body).encode()))
+        forfeits.forfeit(now.context, seats.id, now.command(ORGANISER, json.dumps(body).encode()))
 
 
 # simulated shots
@@ -249,10 +251,10 @@ def test_the_budget_of_simulated_shots_is_counted_by_player_and_game(stage):
     seats = now.game("ann", "bob", clock={"seconds": 10.0, "simulations": 100})
     first, second = seats.ids
     for agent, key, shots in ((first, "a", 60), (second, "a", 100), (first, "b", 40)):
-        simulations.count(now.context, now.command(agent, key=key), seats.id, shots)
+        budget.count(now.context, now.command(agent, key=key), seats.id, shots)
     for agent in seats.ids:
         with pytest.raises(BudgetSpent, match="more than the 0 that are left"):
-            simulations.count(now.context, now.command(agent, key="c"), seats.id, 1)
+            budget.count(now.context, now.command(agent, key="c"), seats.id, 1)
     book = ledger.read(now.context, seats.id)
     assert [player.simulated for player in book.players] == [100, 100]
     assert [clock.simulations_left for clock in book.clocks] == [0, 0]
@@ -264,11 +266,11 @@ def test_a_request_that_comes_again_is_counted_once(stage):
     seats = now.game("ann", "bob", clock={"seconds": 10.0, "simulations": 100})
     sent = now.command(seats.ids[0], b"1")
     for _ in range(2):
-        simulations.count(now.context, sent, seats.id, 100)
+        budget.count(now.context, sent, seats.id, 100)
     with pytest.raises(KeyReused):
-        simulations.count(now.context, now.command(seats.ids[0], b"2"), seats.id, 100)
+        budget.count(now.context, now.command(seats.ids[0], b"2"), seats.id, 100)
     seats.concede()
-    simulations.count(now.context, sent, seats.id, 100)
+    budget.count(now.context, sent, seats.id, 100)
     assert ledger.read(now.context, seats.id).players[0].simulated == 100
 
 
@@ -276,7 +278,7 @@ def test_a_batch_beyond_the_budget_is_refused_whole(stage):
     now = stage()
     seats = now.game("ann", "bob", clock={"seconds": 10.0, "simulations": 100})
     with pytest.raises(BudgetSpent):
-        simulations.count(now.context, now.command(seats.ids[0]), seats.id, 101)
+        budget.count(now.context, now.command(seats.ids[0]), seats.id, 101)
     assert ledger.read(now.context, seats.id).players[0].simulated == 0
 
 
@@ -285,7 +287,7 @@ def test_nobody_spends_the_budget_of_another(stage):
     seats, other = now.game("ann", "bob"), now.game("cat", "dan")
     for caller in (other.ids[0], ORGANISER):
         with pytest.raises(Forbidden):
-            simulations.count(now.context, now.command(caller), seats.id, 1)
+            budget.count(now.context, now.command(caller), seats.id, 1)
 
 
 def test_a_game_that_is_over_has_no_budget(stage):
@@ -293,7 +295,7 @@ def test_a_game_that_is_over_has_no_budget(stage):
     seats = now.game("ann", "bob")
     seats.concede()
     with pytest.raises(GameFinished):
-        simulations.count(now.context, now.command(seats.ids[0]), seats.id, 1)
+        budget.count(now.context, now.command(seats.ids[0]), seats.id, 1)
 
 
 def test_who_left_long_ago_is_not_remembered():

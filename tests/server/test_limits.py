@@ -12,10 +12,10 @@ import pytest
 from support.server_time import StoppedTime
 
 from server.errors import TooManyRequests
+from server.http.connections import TIMED_OUT
 from server.security import rates
-from server.security.connections import TIMED_OUT
 from server.security.rates import Rates
-from server.services.physics_pool import WAITING, PhysicsPool
+from server.services.physics.pool import WAITING, PhysicsPool
 
 SCENE = {"balls": {"0": [0.5, 1.7]}, "shots": [{"v": 1.0, "phi": 270.0, "theta": 10.0, "a": 0.0, "b": 0.0}]}
 TCP_ESTABLISHED = 1

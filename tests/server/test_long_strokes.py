@@ -13,11 +13,11 @@ import time
 import pytest
 
 from physics import Shot, Table
+from protocol import StrokeDetail
 from referee import Action, Decision, EightBall, Limits, MatchSeed, NoiseModel, play_stroke
 from referee.record import Chain, stroke_entry, verify_record
-from referee.wire import StrokeDetail
-from server.services import strokes
-from server.services.long_strokes import MOST_EVENTS, SHARE, IsLong, LongStrokes
+from server.services.play import strokes
+from server.services.play.long_strokes import MOST_EVENTS, SHARE, IsLong, LongStrokes
 
 RADIUS = 0.028575
 LIVELY = {

@@ -11,8 +11,9 @@ from support.server_time import SECOND, Stage
 
 from server.errors import BudgetSpent
 from server.security import keys
-from server.services import history, ledger, simulations, strokes, turns
-from server.services.timer import flag
+from server.services.play import budget, history, strokes, turns
+from server.services.play.clock import ledger
+from server.services.play.clock.flag import flag
 
 BREAK = {"v": 8.0, "phi": 270.0, "theta": 5.0, "a": 0.0, "b": 0.0}
 BUDGET = {"clock": {"seconds": 10.0, "simulations": 100}}
@@ -34,7 +35,7 @@ def played(stage, seats):
 
 
 def count(stage, seats, agent, shots, key="n"):
-    return lambda: simulations.count(stage.context, stage.command(agent, key=key), seats.id, shots)
+    return lambda: budget.count(stage.context, stage.command(agent, key=key), seats.id, shots)
 
 
 @pytest.mark.parametrize("terms", [{}, BUDGET], ids=["no budget", "a budget"])

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 from sqlalchemy import select, text
 
-from referee.wire.agents import AgentName
+from protocol.agents import AgentName
 from server.errors import SettingsError
 from server.security.names import CONFUSABLES, LONGEST_SKELETON, skeleton
-from server.services import house
+from server.services.accounts import house_bots
 from server.store.database import Database
 from server.store.tables import agents
 from server.store.upgrade import _config, upgrade
@@ -81,7 +81,7 @@ def test_a_name_that_looks_like_a_taken_one_is_refused_and_told_which(own_server
 
 def test_two_house_bots_that_look_alike_do_not_start():
     with pytest.raises(SettingsError, match="looks like another"):
-        house.parse("greedy;Greedy=random")
+        house_bots.parse("greedy;Greedy=random")
 
 
 def test_a_database_whose_names_are_alike_already_opens_and_keeps_them(tmp_path, own_server, organiser_at):

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from pydantic import TypeAdapter
 
-from referee import wire
+import protocol
 
 ENDLESS = "text/event-stream"
 """Read event by event in test_streams.py; here nobody could wait for the end."""
@@ -34,9 +34,9 @@ def examples_of(operation):
 def model_of(schema: dict[str, Any]) -> TypeAdapter[Any]:
     """The wire model that a response's schema names."""
     if "$ref" in schema:
-        return TypeAdapter(getattr(wire, schema["$ref"].rsplit("/", 1)[1]))
+        return TypeAdapter(getattr(protocol, schema["$ref"].rsplit("/", 1)[1]))
     if "anyOf" in schema or "oneOf" in schema:
-        return wire.TURN_MESSAGE
+        return protocol.TURN_MESSAGE
     return TypeAdapter(dict[str, str])
 
 
@@ -89,7 +89,7 @@ def test_every_body_has_an_example_that_its_own_schema_accepts(document):
         examples = examples_of(operation)
         assert examples, (method, path)
         for example in examples:
-            getattr(wire, schema.rsplit("/", 1)[1]).model_validate_json(json.dumps(example))
+            getattr(protocol, schema.rsplit("/", 1)[1]).model_validate_json(json.dumps(example))
 
 
 @pytest.fixture(params=["sent as shown", "sent where it applies"])

@@ -16,7 +16,7 @@ from server.errors import Draining
 from server.ops.logs import REQUEST, JsonLines
 from server.ops.metrics import Metrics
 from server.routes.health import readiness
-from server.services import warmup
+from server.services.runtime import warmup
 from server.settings import settable
 from server.store.upgrade import head
 

@@ -17,8 +17,8 @@ from support.streams import until, watching
 from referee.record import verify_record
 from server.errors import Unavailable
 from server.routes.health import readiness
-from server.services import heartbeat
-from server.services.timer import flag
+from server.services.play.clock.flag import flag
+from server.services.runtime import heartbeat
 from server.store.database import Database
 
 QUICK = {"POOLIAD_HEARTBEAT_PERIOD": "0.2", "POOLIAD_DATABASE_SECONDS": "0.3", "POOLIAD_STREAM_RECHECK": "0.1"}

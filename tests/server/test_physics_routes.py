@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import physics
-from referee.wire import BatchRequest
+from protocol import BatchRequest
 from server.errors import Invalid
-from server.services import physics as service
+from server.services.physics import simulations as service
 
 OVERLAP = {"0": [0.5, 0.5], "1": [0.51, 0.5]}
 OFF_TABLE = {"0": [5.0, 0.5]}

@@ -14,18 +14,21 @@ import pytest
 from sqlalchemy import select
 from support.server_time import SECOND, Stage
 
-from referee.wire import AgentRequest
+from protocol import AgentRequest
 from server.security.callers import ORGANISER
-from server.services import agents, heartbeat, ledger, matches
-from server.services.openings import begin_due
-from server.services.timer import flag
+from server.services.accounts import agents
+from server.services.matches import matches
+from server.services.matches.player_seeds import begin_due
+from server.services.play.clock import ledger
+from server.services.play.clock.flag import flag
+from server.services.runtime import heartbeat
 from server.store import tables
 
 SLOW_SECONDS = 8.0
 SLOW_START = f"""
 import contextlib, time
 from server import __main__
-from server.services.house_bots import House
+from server.services.accounts.house_processes import House
 
 quick = House.running
 

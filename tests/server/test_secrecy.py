@@ -14,7 +14,8 @@ from support.streams import until, watching
 
 from referee.record import read_record, verify_record
 from server.security.callers import ORGANISER
-from server.services import matches, tournaments
+from server.services.matches import matches
+from server.services.tournaments import tournaments
 from tournament import Event, InvalidSpec, Spec, game_seeds
 from tournament.ledger import Act, Ledger
 from tournament.seeds import match_seed

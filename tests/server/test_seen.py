@@ -2,13 +2,13 @@
 
 from support.server_time import Stage
 
-from server.services import seen
-from server.services.seen import SeenGames
+from server.services.play import game_cache
+from server.services.play.game_cache import SeenGames
 
 
 def test_the_game_looked_for_longest_ago_is_forgotten_first(tmp_path, monkeypatch):
     """A game that was found there stayed where it was: of a thousand others the busiest was forgotten first."""
-    monkeypatch.setattr(seen, "MOST_KEPT", 2)
+    monkeypatch.setattr(game_cache, "MOST_KEPT", 2)
     stage, games = Stage(tmp_path / "seen.db"), SeenGames()
     first, second, third = (stage.game(f"ann {number}", f"bob {number}").id for number in range(3))
     with stage.context.database.reading() as connection:

@@ -15,8 +15,8 @@ from alembic.runtime.migration import MigrationContext
 from server.errors import Draining, SettingsError
 from server.routes.health import readiness
 from server.serve import listening
-from server.services import warmup
-from server.services.context import Context
+from server.services.runtime import warmup
+from server.services.runtime.context import Context
 from server.settings import Settings
 from server.store.database import Database
 from server.store.tables import metadata

@@ -17,8 +17,8 @@ from support.cup import Cup
 from support.streams import until, watching
 
 from referee.record import verify_record
-from server.services import heartbeat
-from server.services.context import Context
+from server.services.runtime import heartbeat
+from server.services.runtime.context import Context
 from server.settings import Settings
 from server.store.database import Database
 from server.store.upgrade import upgrade

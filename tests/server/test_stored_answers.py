@@ -4,8 +4,8 @@ import time
 
 from sqlalchemy import func, select
 
-from server.services import retention
-from server.services.context import Context
+from server.services.runtime import retention
+from server.services.runtime.context import Context
 from server.settings import Settings
 from server.store.database import Database
 from server.store.tables import answers

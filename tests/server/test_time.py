@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from server.services.time import DatabaseTime, TimeSource
+from server.services.runtime.time import DatabaseTime, TimeSource
 from server.store.database import Database
 
 SECOND = 1_000_000_000

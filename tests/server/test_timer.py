@@ -4,13 +4,16 @@ import json
 
 import pytest
 
-from referee.wire import AgentRequest
+from protocol import AgentRequest
 from server.errors import OutOfTime
+from server.http.commands import Command
 from server.security.callers import Caller
-from server.services import agents, matches, strokes, timer, turns
-from server.services.commands import Command
-from server.services.context import Context
-from server.services.timer import flag
+from server.services.accounts import agents
+from server.services.matches import matches
+from server.services.play import strokes, turns
+from server.services.play.clock import flag
+from server.services.play.clock.flag import flag as take_flags
+from server.services.runtime.context import Context
 from server.settings import Settings
 from server.store.database import Database
 from server.store.upgrade import upgrade
@@ -69,7 +72,7 @@ def concede(context, game, mover):
 
 def ended(context, turn):
     """Whether the mover has been told that the game is over."""
-    flag(context)
+    take_flags(context)
     message = turns.next_message(context, turn[1])
     return message is not None and json.loads(message)["type"] == "game_over"
 
@@ -135,8 +138,8 @@ def test_a_game_that_cannot_be_ended_does_not_keep_the_others_running(context, m
             raise RuntimeError("its row is damaged")
         return real(writing, live, *how, **when)
 
-    real = timer.course.end_from_outside
-    monkeypatch.setattr(timer.course, "end_from_outside", end)
+    real = flag.course.end_from_outside
+    monkeypatch.setattr(flag.course, "end_from_outside", end)
     context.time.value += 20 * SECOND
     assert ended(context, whole)
     assert broken[0] in caplog.text

@@ -5,7 +5,7 @@ from typing import Any
 
 from support.players import Potter
 
-from referee.wire import DecisionRequest, ShotRequest, View
+from protocol import DecisionRequest, ShotRequest, View
 
 
 @dataclass

@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass, field
 
 from physics import SeededStream, Shot, min_elevation
+from protocol import View
 from referee.game import Action, Call, Decision
-from referee.wire import View
 
 
 @dataclass

@@ -5,13 +5,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from referee.wire import AgentRequest
+from protocol import AgentRequest
 from server.errors import Refused
+from server.http.commands import Command
 from server.security.callers import ORGANISER, Caller
-from server.services import agents, history, matches, strokes, turns
-from server.services.commands import Command
-from server.services.context import Context
-from server.services.timer import flag
+from server.services.accounts import agents
+from server.services.matches import matches
+from server.services.play import history, strokes, turns
+from server.services.play.clock.flag import flag
+from server.services.runtime.context import Context
 from server.settings import Settings
 from server.store.database import Database
 from server.store.upgrade import upgrade

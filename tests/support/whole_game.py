@@ -5,10 +5,10 @@ from typing import Any
 
 import physics
 from client import Agent
+from client.local_game import Watch, play_match
+from protocol import View
 from referee import Action, EightBall
 from referee.play import MatchSeed, NoiseModel
-from referee.play.local import Watch, play_match
-from referee.wire import View
 
 RULES = EightBall(physics.Table.olympiad())
 

@@ -19,8 +19,8 @@ from typing import Any
 import httpx2
 
 import client
+from protocol import View
 from referee.record import this_engine, verify_record
-from referee.wire import View
 
 ORGANISER = "the organiser of a fixture, no secret of anybody"
 POSITION = {

@@ -7,12 +7,12 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from tournament.event import Event
 from tournament.luck import GameLuck
 from tournament.results import GameResult
 from tournament.scores import Key
 from tournament.standings import standings
 from tournament.statistics import ladder, rate, score_of
+from tournament.tournament import Event
 
 FORMAT = "pooliad-report/1"
 MOST_LEVELS = 6

@@ -10,13 +10,13 @@ from client.agents.chance import generator
 from client.agents.greedy import places
 from client.agents.greedy.candidates import Candidates
 from client.agents.greedy.judge import Judge
-from client.agents.greedy.plan import Plan
+from client.agents.greedy.planned_action import Plan
 from client.agents.greedy.worth import worth_of_passing
 from client.geometry import Point
 from client.simulator import Simulator
 from physics import Table
+from protocol import View
 from referee import Action, Call, CueBallArea, Decision, EightBall, Game, Phase
-from referee.wire import View
 
 USUAL_NOISE = 1.0
 """The level to reckon with when the game does not tell."""

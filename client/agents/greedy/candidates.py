@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Literal
 
-from client.agents.greedy.plan import Plan
+from client.agents.greedy.planned_action import Plan
 from client.geometry import Point, Pot, azimuth, pots
 from physics import Shot, Table, TableState, min_elevation
 from referee import SAFETY, Action, Call

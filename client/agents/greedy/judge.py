@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from client.agents.greedy.plan import Plan
+from client.agents.greedy.planned_action import Plan
 from client.agents.greedy.worth import worth
 from client.simulator import Simulator
 from physics.constants import THETA_MAX, V_MAX

@@ -13,8 +13,8 @@ from client.agents.search.options import Options
 from client.agents.search.sight import Sight
 from client.agents.search.thinking import Thought, Turn
 from client.agents.search.value import Values
+from protocol import View
 from referee import Action, Decision, EightBall, Game, Phase
-from referee.wire import View
 
 USUAL_NOISE = 1.0
 """The level to reckon with when the game does not tell."""

@@ -12,7 +12,7 @@ from physics import Batch, Table
 from physics.constants import THETA_MAX, V_MAX
 from physics.shot import FIELDS
 from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
-from referee.rules.verdicts import read_verdicts
+from referee.rules.batch_rulings import read_verdicts
 
 SIGMAS = np.array([SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B])
 """Standard deviations of a stroke's columns at level 1."""

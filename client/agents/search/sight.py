@@ -9,7 +9,7 @@ from client.agents.search import engine
 from client.agents.search.shots import THETA, Floats, Integers, Shots, Tables
 from physics import Table
 from referee.play.noise import SIGMA_B, SIGMA_PHI, SIGMA_THETA
-from referee.rules.verdicts import target_balls
+from referee.rules.batch_rulings import target_balls
 
 LEAST_NOISE = 0.1
 """Level below which chances are not told apart: at noise 0 the widest margin is still the best."""

@@ -14,7 +14,7 @@ from client.agents.search.evaluate import Evaluator
 from client.agents.search.shots import Floats, Shots, Tables
 from physics import Batch, Table
 from physics.facts import NEVER
-from referee.rules.verdicts import SAFETY_CALL, target_balls
+from referee.rules.batch_rulings import SAFETY_CALL, target_balls
 
 SPEEDS = (1.1, 2.0, 3.4, 5.5)
 """m/s of the cue."""

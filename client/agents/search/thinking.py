@@ -14,7 +14,7 @@ from client.agents.search.shots import Floats, Shots, Tables
 from client.agents.search.sweep import sweep
 from physics import Shot, TableState, min_elevation
 from referee import SAFETY, Action, BudgetSpent, Call, CueBallArea, EightBall, Game, Group
-from referee.rules.verdicts import OPEN, SAFETY_CALL, target_balls
+from referee.rules.batch_rulings import OPEN, SAFETY_CALL, target_balls
 
 AIMS = 7
 """Directions tried to find the middle of a pot."""

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from client.agents.search.race import race
 from client.agents.search.shots import CHANCE, LAYOUT, PLACED, SEEN, Floats, Groups, Tables
 from client.agents.search.sight import Sight
-from referee.rules.verdicts import OPEN, Verdicts
+from referee.rules.batch_rulings import OPEN, Verdicts
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,8 +14,8 @@ import pytest
 import client
 from client.agents.random_agent import RandomAgent
 from client.arena.hosting import Hosting
+from client.arena.resumable_game import play
 from client.arena.seats import InlineSeat, seat_of
-from client.arena.table import play
 from client.arena.tasks import play_pair
 from client.arena.terms import Terms
 from referee import EndReason

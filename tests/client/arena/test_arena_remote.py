@@ -14,8 +14,8 @@ from client.arena.remote import RemoteRunner
 from client.arena.runner import Runner
 from client.arena.terms import Terms
 from client.errors import BudgetSpent, ConnectionFailed
+from protocol import Turn, VoidRequest
 from referee.record import read_record, verify_record
-from referee.wire import Turn, VoidRequest
 from tournament import Event, game_seeds
 from tournament.report import event_report
 

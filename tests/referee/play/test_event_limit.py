@@ -9,12 +9,12 @@ import pytest
 from support.bits import plays
 from support.players import Potter
 
+from client.local_game import play_game
 from physics import Shot, Status, Table, simulate
 from physics.constants import EVENT_LIMIT
 from referee import SAFETY, Action, EightBall, InvalidGame, Limits, MatchSeed, NoiseModel, Phase
 from referee.play import play_stroke
 from referee.play.batch import Strokes, play_strokes
-from referee.play.local import play_game
 from referee.record import Engine, Header, MatchTerms, canonical, verify_record
 
 TABLE = Table.olympiad()

@@ -5,10 +5,10 @@ import json
 import pytest
 
 import physics
+from client.local_game import play_game
 from referee import Action, EightBall, NoiseModel
 from referee.play import MatchSeed
 from referee.play.budget import budgets
-from referee.play.local import play_game
 from referee.record import Chain, Verdict, verify_record
 
 BREAK = Action(physics.Shot(v=9.0, phi=270.0, theta=5.0), cue_ball=(0.558, 1.75))

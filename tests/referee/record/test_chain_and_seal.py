@@ -13,10 +13,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from support.players import Potter
 
+from client.local_game import play_game
 from physics import Table
 from referee.game import EndReason, Outcome
 from referee.play import MatchSeed, NoiseModel
-from referee.play.local import play_game
 from referee.record import (
     GENESIS,
     Chain,

@@ -13,10 +13,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.players import Potter
 
+from client.local_game import play_game
 from physics import Shot, Table
 from referee.game import Action, EndReason, Outcome
 from referee.play import MatchSeed, NoiseModel, play_stroke, start_game
-from referee.play.local import play_game
 from referee.record import (
     Chain,
     Engine,

@@ -9,7 +9,7 @@ from physics.events import EventKind
 from referee.game import Action, CueBallArea, Decision, Game, Phase
 from referee.rules.breaks import balls_driven, legal_break
 from referee.rules.spotting import spotted_balls
-from referee.rules.stroke import read_stroke
+from referee.rules.stroke_facts import read_stroke
 
 KITCHEN = CueBallArea.KITCHEN
 CORNERED = {0: (0.285, 1.755), 3: (0.95, 0.3), 11: (0.3, 0.3), 8: (0.5, 0.9)}

@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 from support.situations import RULES, situation
 
+from client.local_game import play_match
 from physics import Facts, Shot, rack
 from referee import Action, CueBallArea, Decision, EightBall, Game, Group, InvalidAction, InvalidGame, Phase
 from referee.play import MatchSeed, NoiseModel
-from referee.play.local import play_match
 from referee.record import canonical, verify_record
 from referee.rules.breaks import OFFERED
 

@@ -1,4 +1,4 @@
-"""`referee.rules.verdicts` rules as `EightBall.apply` does (docs/rules.md), on tables and strokes of every kind."""
+"""`referee.rules.batch_rulings` rules as `EightBall.apply` does (docs/rules.md), on tables and strokes of all kinds."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ from support.situations import RULES, TABLE
 
 import physics
 from referee.game import SAFETY, Action, Call, CueBallArea, Game, Group, Phase, callable_balls
-from referee.rules.verdicts import OPEN, read_verdicts, target_balls
+from referee.rules.batch_rulings import OPEN, read_verdicts, target_balls
 
 GROUPS = {OPEN: None, 0: (Group.SOLIDS, Group.STRIPES), 1: (Group.STRIPES, Group.SOLIDS)}
 STROKES = 400

@@ -1,0 +1,137 @@
+"""What `pooliad demo` sets up and runs: a server, two agents as processes, one match, its account."""
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from client.agents.registry import titles
+from client.cli import embedded
+from client.cli.output import fail, say
+from client.cli.processes import Child
+from client.cli.sentences import sentence_of, summary
+from client.cli.spectator import Ended, Played, follow
+from client.cli.tally import GameTally
+from client.http import Pooliad
+from physics import Shot, Table, min_elevation, rack, simulate, simulate_batch
+from protocol import AgentView, GameSummary, MatchRequest, MatchView, NoiseTerms
+from referee.play import MatchSeed
+
+LEAVING_SECONDS = 15.0
+"""Seconds the agents get to learn that the match is over: less than two of their polls need."""
+
+
+class Stage:
+    """A server and two agent processes, all of them children of this process.
+
+    Args:
+        started: where new children are put; whoever made the list ends them.
+        directory: for the database, the records and the logs.
+        agents: names for `pooliad agent run`.
+        seed: of the match and of the agents' choices.
+        quiet: say nothing while playing.
+    """
+
+    def __init__(self, started: list[Child], directory: Path, agents: tuple[str, str], seed: int, quiet: bool) -> None:
+        self._children = started
+        self._directory = directory
+        self._agents = agents
+        self._seed = seed
+        self._say = _silence if quiet else say
+        self._games: list[dict[str, Any]] = []
+
+    def play(self, games: int, noise: float) -> dict[str, Any]:
+        """Play the match and return its account, as JSON."""
+        _warm_up(self._say)
+        server = embedded.start(self._children, self._directory)
+        with Pooliad(server.url, server.organiser) as organiser:
+            entered = zip(titles(*self._agents), self._agents, strict=True)
+            players = [self._enter(organiser, server.url, name, program) for name, program in entered]
+            request = MatchRequest(
+                agents=(players[0].id, players[1].id),
+                games=games,
+                noise=NoiseTerms(level=noise),
+                seed=MatchSeed.of(self._seed).secret.hex(),
+            )
+            match = organiser.create_match(request)
+            self._say(f"{match.players[0]} against {match.players[1]}, noise {noise:g}, seed {self._seed}")
+            self._watch(organiser, match)
+            return self._finish(organiser.match(match.id))
+
+    def _enter(self, organiser: Pooliad, url: str, name: str, program: str) -> AgentView:
+        """Register an agent and start its process."""
+        entry = organiser.register(name)
+        command = [sys.executable, "-P", "-m", "client.cli", "agent", "run", program, "--seed", str(self._seed)]
+        environment = {"POOLIAD_URL": url, "POOLIAD_TOKEN": entry.token}
+        self._children.append(Child(name, command, self._directory / f"{name}.log", environment))
+        return entry.agent
+
+    def _watch(self, organiser: Pooliad, match: MatchView) -> None:
+        """Tell the match stroke by stroke, and keep each game's record."""
+        tally = GameTally()
+        for happening in follow(organiser, match.id, self._check):
+            match happening:
+                case Played(stroke=stroke):
+                    tally.add(stroke)
+                    self._say(sentence_of(stroke, match.players))
+                case Ended(game=game):
+                    self._close(organiser, match, game, tally)
+                    tally = GameTally()
+
+    def _close(self, organiser: Pooliad, match: MatchView, game: GameSummary, tally: GameTally) -> None:
+        """Keep a finished game's record and say how it ended."""
+        record = self._directory / f"game-{game.number + 1}.jsonl"
+        record.write_bytes(organiser.record(game.id))
+        keys = self._directory / "keys.json"
+        keys.write_text(organiser.keys().model_dump_json(indent=2) + "\n", encoding="utf-8")
+        value = tally.value(game, match.players, record, keys)
+        self._games.append(value)
+        for line in summary(value, match.players):
+            self._say(line)
+
+    def _finish(self, match: MatchView) -> dict[str, Any]:
+        """Let the agents leave, and account for the match."""
+        for child in self._children[1:]:
+            if child.wait(LEAVING_SECONDS) is None:
+                fail(f"{child.name} still runs although the match is over:\n{child.last_words()}")
+        self._check()
+        self._say(f"match {match.status}: {' '.join(_score(match))}; logs and records in {self._directory}")
+        return {
+            "match": match.id,
+            "status": match.status,
+            "seed": self._seed,
+            "noise": match.noise.level,
+            "agents": list(match.players),
+            "score": list(match.score),
+            "winner": None if match.winner is None else match.players[match.winner],
+            "directory": str(self._directory),
+            "games": self._games,
+        }
+
+    def _check(self) -> None:
+        """Leave the command if a child has failed."""
+        for child in self._children:
+            if child.exit_code not in (None, 0):
+                fail(f"{child.name} left with exit code {child.exit_code}:\n{child.last_words()}")
+
+
+def _score(match: MatchView) -> tuple[str, str]:
+    """Each player with the games won."""
+    return f"{match.players[0]} {match.score[0]:g},", f"{match.players[1]} {match.score[1]:g}"
+
+
+def _silence(_text: str) -> None:
+    """Say nothing."""
+
+
+def _warm_up(tell: Callable[[str], None]) -> None:
+    """Have the physics compiled before clocks run: once on a machine, and by one process instead of three."""
+    tell("preparing the physics (compiled once, then kept)")
+    table = Table.olympiad()
+    state = rack(table, "eight_ball", seed=0)
+    shot = Shot(1.0, 270.0, min_elevation(table, state, 270.0))
+    simulate(table, state, shot)
+    row = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b]])
+    simulate_batch(table, state.positions[None].copy(), row)  # as greedy calls it: compiled for its own kind of array

@@ -1,0 +1,95 @@
+"""Strokes and decisions of the past, as answers, views and histories show them."""
+
+from collections.abc import Sequence
+from typing import Any, Self
+
+from physics.status import Status
+from protocol.outcomes import EventView, Pocketed, RulingView
+from protocol.shots import ShotParameters, SubmittedAction
+from protocol.values import Balls, Integer, Message, Number, Seat
+from referee.play.stroke import Stroke
+
+
+class StrokeView(Message):
+    """A stroke or a decision in the past.
+
+    Attributes:
+        index: its number in the game's history, from 0; decisions count.
+        stroke: the index of the stroke; null for a decision.
+        seat: who played it.
+        action: what was asked for.
+        shot: the shot as played, with noise; null for a decision.
+        status: how the shot ended, by name (``at_rest``, ``tip_off_ball``, …); null for a decision.
+        duration: s; null for a decision.
+        pocketed: in order.
+        balls: the table after the ruling (balls spotted, racked again).
+    """
+
+    index: Integer
+    stroke: Integer | None
+    seat: Seat
+    action: SubmittedAction
+    shot: ShotParameters | None
+    status: str | None
+    duration: Number | None
+    pocketed: tuple[Pocketed, ...]
+    ruling: RulingView
+    balls: Balls
+
+    @classmethod
+    def of(cls, stroke: Stroke, index: int) -> Self:
+        """The wire's form of the ``index``-th entry of a game's history."""
+        return cls.model_validate(_summary(stroke, index))
+
+
+class StrokeDetail(StrokeView):
+    """A stroke with its events.
+
+    Attributes:
+        before: the table the stroke was played on, the cue ball placed; null for a decision.
+        final: the table at rest, before the ruling touched it; null for a decision.
+        events: every event of the shot; empty for a decision.
+    """
+
+    before: Balls | None
+    final: Balls | None
+    events: tuple[EventView, ...]
+
+    @classmethod
+    def of(cls, stroke: Stroke, index: int, *, events: bool = True) -> Self:
+        """The wire's form of the ``index``-th entry of a game's history; ``events``: with its events."""
+        result = stroke.result
+        details: dict[str, Any] = {"before": None, "final": None, "events": ()}
+        if result is not None:
+            details = {
+                "before": stroke.before.to_dict(),
+                "final": result.final.to_dict(),
+                "events": tuple(event.to_dict() for event in result.events) if events else (),
+            }
+        return cls.model_validate(_summary(stroke, index) | details)
+
+
+def since_own_last(strokes: Sequence[StrokeView], seat: int | None) -> tuple[StrokeView, ...]:
+    """The strokes a view shows: from the reader's own last one on; for a spectator (None) the last alone."""
+    if seat is None:
+        return tuple(strokes[-1:])
+    own = (place for place in range(len(strokes) - 1, -1, -1) if strokes[place].seat == seat)
+    return tuple(strokes[next(own, 0) :])
+
+
+def _summary(stroke: Stroke, index: int) -> dict[str, Any]:
+    """The fields that a stroke has with and without its events."""
+    result = stroke.result
+    fallen = () if result is None else result.facts.pocketed_in_order
+    return {
+        "index": index,
+        "stroke": stroke.index,
+        "seat": stroke.seat,
+        "action": SubmittedAction.of(stroke.action),
+        "shot": None if stroke.shot is None else ShotParameters.of(stroke.shot),
+        "status": None if result is None else Status(result.status).name.lower(),
+        "duration": None if result is None else result.duration,
+        "pocketed": tuple(Pocketed(ball=ball, pocket=pocket) for ball, pocket, _ in fallen),
+        "ruling": RulingView.of(stroke.ruling),
+        "balls": stroke.game.state.to_dict(),
+    }

@@ -1,0 +1,1 @@
+"""What the framework does not do: strict JSON, the order of checks, exactly once, limits on bodies and connections."""

@@ -1,0 +1,199 @@
+"""What endpoints are given: the context, the caller, the command, the page."""
+
+from collections.abc import AsyncIterator
+from typing import Annotated
+
+from fastapi import Depends, Header, Query, Request, Response
+from sqlalchemy import Connection
+
+from server.errors import Unauthorized
+from server.http.commands import Answer, Command
+from server.http.describe import NUMBER, PAGE_LIMIT, PLACE, SEARCH
+from server.security.addresses import origin
+from server.security.callers import Caller, identify
+from server.security.tokens import bearer
+from server.services.play.strokes import Move
+from server.services.runtime.context import Context
+from server.store import paging
+
+
+def context_of(request: Request) -> Context:
+    """The server's parts."""
+    context: Context = request.app.state.context
+    return context
+
+
+async def _server(request: Request) -> Context:
+    """What takes no time is done on the loop: to hand it to a thread would take longer."""
+    return context_of(request)
+
+
+Server = Annotated[Context, Depends(_server)]
+
+
+def _caller(request: Request) -> Caller:
+    context = context_of(request)
+    with context.database.reading() as connection:
+        caller = _identified(connection, request)
+    context.limits.count(caller)
+    return caller
+
+
+def _identified(connection: Connection, request: Request) -> Caller:
+    """The caller; whoever comes without a valid token is counted by address."""
+    context = context_of(request)
+    try:
+        return identify(connection, _token(request), context.settings.organiser_digest, context.time.now())
+    except Unauthorized:
+        context.limits.count_stranger(_address(request))
+        raise
+
+
+def _token(request: Request) -> str | None:
+    return bearer(request.headers.get("authorization"))
+
+
+def _address(request: Request) -> str:
+    return origin(request.client.host if request.client else None)
+
+
+def _simulating(caller: Annotated[Caller, Depends(_caller)]) -> Caller:
+    caller.require_player()
+    return caller
+
+
+def _visitor(request: Request) -> Caller | None:
+    if _token(request) is not None:
+        return _caller(request)
+    context_of(request).limits.count_stranger(_address(request))
+    return None
+
+
+def _reader(request: Request) -> Caller | None:
+    return _visitor(request) if context_of(request).settings.public_reads else _caller(request)
+
+
+Authenticated = Annotated[Caller, Depends(_caller)]
+"""Somebody with a valid token; 401 for anybody else."""
+Simulating = Annotated[Caller, Depends(_simulating)]
+"""Somebody who plays or organises: may use the physics."""
+Visitor = Annotated[Caller | None, Depends(_visitor)]
+"""Somebody who needs no token; one that is sent must be valid all the same."""
+Address = Annotated[str, Depends(_address)]
+"""Where the request comes from, as `origin` has it."""
+Reader = Annotated[Caller | None, Depends(_reader)]
+"""Whoever reads something public: anybody, unless the settings ask for a token, whatever its scope."""
+ANYBODY = Depends(_reader)
+"""The same for an endpoint that shows everybody the same."""
+
+
+async def _watching(context: Server, caller: Reader, request: Request) -> AsyncIterator[None]:
+    """The framework ends this when the whole response is sent, or the reader is gone before its first byte."""
+    with context.limits.watching(caller, _address(request)):
+        yield
+
+
+A_PLACE_TO_WATCH = Depends(_watching)
+"""For an endpoint that answers with a stream: counts it among the reader's for as long as it lasts."""
+
+
+async def _body(request: Request) -> bytes:
+    body: bytes = request.state.body
+    return body
+
+
+Body = Annotated[bytes, Depends(_body)]
+ContentType = Annotated[str | None, Header(include_in_schema=False)]
+
+
+def _sent(request: Request, caller: Caller) -> Command:
+    """Headers are read here: each one that the framework is told of takes it longer than the look-up."""
+    headers, state = request.headers, request.state
+    return Command(
+        caller=caller,
+        route=request.url.path,
+        key=headers.get("idempotency-key"),
+        if_match=headers.get("if-match"),
+        content_type=headers.get("content-type"),
+        body=state.body,
+        arrived=state.arrived,
+    )
+
+
+async def _command(caller: Authenticated, request: Request) -> Command:
+    return _sent(request, caller)
+
+
+Sent = Annotated[Command, Depends(_command)]
+"""A state-changing request."""
+
+
+async def _move(request: Request) -> Move:
+    return lambda connection: _sent(request, _identified(connection, request))
+
+
+Moved = Annotated[Move, Depends(_move)]
+"""A player's move: whoever it is from is looked up by the transaction that looks at the game."""
+
+
+async def _in_hand(game_id: str, request: Request) -> AsyncIterator[None]:
+    """Tell the timer that a complete request of this game is being worked on.
+
+    Runs on the loop, before any queueing; over when there is an answer, whether or not it is being read.
+    """
+    in_hand, arrived = context_of(request).in_hand, request.state.arrived
+    in_hand[game_id].append(arrived)
+    try:
+        yield
+    finally:
+        in_hand[game_id].remove(arrived)
+        if not in_hand[game_id]:
+            del in_hand[game_id]
+
+
+InHand = Depends(_in_hand, scope="function")
+
+
+async def _cursor(
+    cursor: Annotated[
+        str | None, Query(description="`next_cursor` of the page before", json_schema_extra=NUMBER)
+    ] = None,
+) -> int:
+    return paging.cursor(cursor)
+
+
+async def _place(
+    cursor: Annotated[
+        str | None, Query(description="`next_cursor` of the page before", json_schema_extra=PLACE)
+    ] = None,
+) -> paging.Place | None:
+    return paging.place(cursor)
+
+
+async def _limit(
+    limit: Annotated[
+        str | None, Query(description="rows a page, 1 to 200; 50 unless told", json_schema_extra=PAGE_LIMIT)
+    ] = None,
+) -> int:
+    return paging.limit(limit)
+
+
+async def _search(
+    search: Annotated[
+        str | None, Query(description="only rows whose names contain this, or whose id it is", json_schema_extra=SEARCH)
+    ] = None,
+) -> str | None:
+    return paging.search(search)
+
+
+Cursor = Annotated[int, Depends(_cursor)]
+"""Of a list whose rows are numbered."""
+Place = Annotated[paging.Place | None, Depends(_place)]
+"""Of a list whose rows are in the order they were made."""
+Limit = Annotated[int, Depends(_limit)]
+Search = Annotated[str | None, Depends(_search)]
+
+
+def respond(answer: Answer) -> Response:
+    """An answer as an HTTP response, its bytes as they are."""
+    return Response(answer.body, answer.status, headers=dict(answer.headers), media_type="application/json")

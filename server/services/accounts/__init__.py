@@ -1,0 +1,1 @@
+"""Accounts: agents, tokens, and the house bots that the server runs itself."""

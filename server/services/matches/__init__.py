@@ -1,0 +1,1 @@
+"""Matches: challenged, accepted, seeded, shown, kept secret as long as need be."""

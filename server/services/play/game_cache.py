@@ -1,0 +1,36 @@
+"""The running games that this process saw last: what a version fixes is not read again, nor put together again."""
+
+from dataclasses import replace
+from typing import Final
+
+from sqlalchemy import Connection
+
+from server.services.play.live_game import LiveGame, find_row, read
+from server.services.runtime.cache import Latest
+
+MOST_KEPT: Final = 1024
+"""Games, about 20 kB each."""
+
+
+class SeenGames:
+    """The balls, the score and the terms change with a game's version alone; its clocks are read every time."""
+
+    def __init__(self) -> None:
+        self._latest = Latest[LiveGame](MOST_KEPT, lambda live: live.row.version)
+
+    def find(self, connection: Connection, game_id: str) -> LiveGame:
+        """The game as it is committed (never from a transaction that has written); raises `NotFound`."""
+        row = find_row(connection, game_id)
+        known = self._latest.get(game_id)
+        if known is not None and known.row.version == row.version:
+            return replace(known, row=row)
+        live = read(connection, row)
+        self.keep(live)
+        return live
+
+    def keep(self, live: LiveGame) -> None:
+        """Remember a game as it was committed; one that is over is forgotten."""
+        if live.is_running:
+            self._latest.keep({live.id: live})
+        else:
+            self._latest.forget(live.id)

@@ -1,0 +1,309 @@
+"""A game as the database has it: its rows, read into the referee's values and shown as messages."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Final
+
+from sqlalchemy import Connection, Row, Select, bindparam, func, select
+
+from physics import Table
+from protocol import BudgetView, ClockView, GameTerms, NoiseView, StrokeView, View
+from referee.game import Game
+from referee.play import Charge, Clocks, GameSeeds, LagAllowance, NoiseModel
+from referee.rules import EightBall
+from server.errors import Forbidden, NotFound
+from server.security.callers import Caller
+from server.services.matches import match_seeds
+from server.services.matches.secrecy import Holder, withheld
+from server.store import locks
+from server.store.rows import GameRow
+from server.store.tables import agents, games, matches, moves
+
+RUNNING: Final = "running"
+FINISHED: Final = "finished"
+ABORTED: Final = "aborted"
+
+
+@dataclass(frozen=True)
+class Fixture:
+    """What stays as it is while a game runs: its match.
+
+    Attributes:
+        match: of `matches`.
+        players: the agents' names, by seat.
+        score: of the match, by seat.
+        withheld: until whose end its noise is kept back.
+    """
+
+    match: Row[Any]
+    players: tuple[str, str]
+    score: tuple[float, float]
+    withheld: Holder | None
+
+    @cached_property
+    def rules(self) -> EightBall:
+        """The referee on this match's table."""
+        return EightBall(Table.from_dict(self.match.table))
+
+    @cached_property
+    def noise(self) -> NoiseModel:
+        """The execution noise of the match."""
+        return NoiseModel(self.match.noise_level, self.match.noise_told)
+
+    @cached_property
+    def lag(self) -> LagAllowance:
+        """What this match gives back for the way to the server and back."""
+        return LagAllowance(self.match.lag_turn, self.match.lag_game)
+
+
+@dataclass(frozen=True, slots=True)
+class LiveGame:
+    """One game with its match.
+
+    Attributes:
+        row: of `games`.
+        fixture: its match.
+        game: the referee's state.
+    """
+
+    row: GameRow
+    fixture: Fixture
+    game: Game
+
+    @property
+    def id(self) -> str:
+        """The game's id."""
+        return self.row.id
+
+    @property
+    def match(self) -> Row[Any]:
+        """The row of its match."""
+        return self.fixture.match
+
+    @property
+    def agents(self) -> tuple[str, str]:
+        """The agents' ids, by seat."""
+        return self.match.seat_0, self.match.seat_1
+
+    @property
+    def is_running(self) -> bool:
+        """Whether the game goes on."""
+        return self.row.status == RUNNING
+
+    @property
+    def rules(self) -> EightBall:
+        """The referee on this match's table."""
+        return self.fixture.rules
+
+    @property
+    def seeds(self) -> GameSeeds:
+        """The game's secrets."""
+        return match_seeds.kept_seeds(self.match, self.row)
+
+    @property
+    def clocks(self) -> Clocks:
+        """Both clocks as charged so far, the running turn not counted."""
+        return Clocks(self.match.allowance, (self.row.used_0, self.row.used_1))
+
+    @property
+    def granted(self) -> tuple[int, int]:
+        """What was given back so far in this game, ns by seat."""
+        return self.row.lag_0, self.row.lag_1
+
+    @property
+    def graces(self) -> tuple[int, int]:
+        """What was given back so far in this game for turns fetched late, ns by seat."""
+        return self.row.grace_0, self.row.grace_1
+
+    @property
+    def is_present(self) -> tuple[bool, bool]:
+        """Whether each player ever fetched a turn of this game or played one."""
+        return self.row.present_0, self.row.present_1
+
+    def seat_of(self, caller: Caller) -> int:
+        """The caller's seat; raises `Forbidden` for anybody but the two players."""
+        if caller.id not in self.agents:
+            raise Forbidden("this is for the game's two players")
+        return self.agents.index(caller.id)
+
+    def running_for(self, now: int) -> int:
+        """Nanoseconds that the running turn's clock has run since it started, or since the server did."""
+        return max(0, now - self.row.clock_from) if self.is_running else 0
+
+    def grace_until(self, now: int) -> int:
+        """What was given back of the running turn until then, for the wait until it was fetched."""
+        waited = max(0, min(now, self.row.clock_from) - self.row.available_at)
+        return self.row.carried_grace + waited if self.is_running else 0
+
+    def charge_until(self, now: int) -> Charge:
+        """What the running turn costs if it ends now."""
+        carried = self.row.carried if self.is_running else 0
+        return self._charge(carried + self.running_for(now), self.grace_until(now))
+
+    def charge_of_action(self, arrived: int) -> Charge:
+        """What the running turn costs if the action that ends it was complete at `arrived`.
+
+        Nothing is given back of a turn that was never fetched: whoever acts knows the view from elsewhere, and did not
+        wait for the fetch.
+        """
+        if self.row.delivered:
+            return self.charge_until(arrived)
+        return self._charge(self.row.carried + max(0, arrived - self.row.available_at), self.row.carried_grace)
+
+    def is_out_of_time(self, arrived: int) -> bool:
+        """Whether an action complete at `arrived` is too late; exactly zero left is."""
+        turn = self.game.turn
+        return self.clocks.charged(turn, self.charge_of_action(arrived).charged_ns).is_out_of_time(turn)
+
+    def _charge(self, ran: int, grace: int) -> Charge:
+        return self.fixture.lag.charge(ran + grace, self.granted[self.game.turn], grace)
+
+    def clock_views(self, now: int) -> tuple[ClockView, ClockView]:
+        """Both clocks as they stand now."""
+        turn, running = self.game.turn, self.running_for(now) > 0
+        clocks = self.clocks.charged(turn, self.charge_until(now).charged_ns)
+        return self._clock(clocks, 0, running and turn == 0), self._clock(clocks, 1, running and turn == 1)
+
+    def _clock(self, clocks: Clocks, seat: int, running: bool) -> ClockView:
+        return ClockView(
+            seconds_left=clocks.remaining_seconds(seat), running=running, simulations_left=self.simulations_left(seat)
+        )
+
+    def simulations_left(self, seat: int) -> int | None:
+        """Shots that this seat may still simulate; None for any number."""
+        simulated = (self.row.simulated_0, self.row.simulated_1)[seat]
+        return None if self.match.simulations is None else max(0, self.match.simulations - simulated)
+
+    def terms(self) -> GameTerms:
+        """What stays the same throughout the game. The rows were validated when they were written."""
+        limits = self.rules.limits
+        return GameTerms.model_construct(
+            game=self.id,
+            match=self.match.id,
+            number=self.row.number,
+            games=self.match.games,
+            players=self.fixture.players,
+            rules=self.match.rules,
+            table=self.match.table,
+            noise=noise_view(self.match, self.fixture.withheld),
+            budget=budget_view(self.match),
+            dry_visits_limit=limits.dry_visits,
+            replays_limit=limits.replays,
+            strokes_limit=limits.strokes,
+            commitment=self.row.commitment,
+        )
+
+    def view(self, connection: Connection, seat: int | None, now: int) -> View:
+        """The game as this seat sees it (None: a spectator)."""
+        return self.view_since(strokes_since(connection, self.id, seat), seat, now)
+
+    def view_since(self, strokes: Sequence[StrokeView], seat: int | None, now: int) -> View:
+        """The same, with the strokes that it is to show."""
+        return View.of(
+            self.terms(),
+            self.game,
+            seat=seat,
+            version=self.row.version,
+            clocks=self.clock_views(now),
+            score=self.fixture.score,
+            strokes_since=strokes,
+        )
+
+
+_GAME: Final = select(games).where(games.c.id == bindparam("id"))
+_FIRST, _SECOND = agents.alias(), agents.alias()
+_MATCH: Final = (
+    select(matches, _FIRST.c.name.label("name_0"), _SECOND.c.name.label("name_1"))
+    .join(_FIRST, _FIRST.c.id == matches.c.seat_0)
+    .join(_SECOND, _SECOND.c.id == matches.c.seat_1)
+    .where(matches.c.id == bindparam("id"))
+)
+"""Made once: to put a statement together takes longer than to carry it out."""
+
+
+def find(connection: Connection, game_id: str) -> LiveGame:
+    """The game with this id; raises `NotFound`."""
+    return read(connection, find_row(connection, game_id))
+
+
+def find_row(connection: Connection, game_id: str) -> GameRow:
+    """The row of the game with this id; raises `NotFound`."""
+    row = connection.execute(_GAME, {"id": game_id}).one_or_none()
+    if row is None:
+        raise NotFound(f"there is no game {game_id}")
+    return GameRow.of(row)
+
+
+def read(connection: Connection, row: GameRow) -> LiveGame:
+    """The game whose row this is."""
+    match = connection.execute(_MATCH, {"id": row.match_id}).one()
+    score = score_of(connection, match.id) if row.number else (0.0, 0.0)
+    fixture = Fixture(match, (match.name_0, match.name_1), score, withheld(connection, match))
+    return LiveGame(row, fixture, Game.from_dict(row.state))
+
+
+def hold(connection: Connection, game_id: str) -> LiveGame:
+    """The same, to be written: nobody else writes the match until the transaction ends."""
+    locks.hold_match_of(connection, game_id)
+    return find(connection, game_id)
+
+
+def find_match(connection: Connection, match_id: str) -> Row[Any]:
+    """The match with this id; raises `NotFound`."""
+    row = connection.execute(select(matches).where(matches.c.id == match_id)).one_or_none()
+    if row is None:
+        raise NotFound(f"there is no match {match_id}")
+    return row
+
+
+def hold_match(connection: Connection, match_id: str) -> Row[Any]:
+    """The same, to be written by this transaction alone."""
+    locks.hold_match(connection, match_id)
+    return find_match(connection, match_id)
+
+
+def player_names(connection: Connection, match: Row[Any]) -> tuple[str, str]:
+    """The names of a match's agents, by seat."""
+    pair = select(agents.c.id, agents.c.name).where(agents.c.id.in_((match.seat_0, match.seat_1)))
+    names = {row.id: row.name for row in connection.execute(pair)}
+    return names[match.seat_0], names[match.seat_1]
+
+
+def score_of(connection: Connection, match_id: str) -> tuple[float, float]:
+    """Games won by seat, half a point each for a drawn one."""
+    finished = select(games.c.winner).where(games.c.match_id == match_id, games.c.status == FINISHED)
+    score = [0.0, 0.0]
+    for winner in connection.scalars(finished):
+        for seat in (0, 1):
+            score[seat] += 0.5 if winner is None else float(winner == seat)
+    return score[0], score[1]
+
+
+def strokes_since(connection: Connection, game_id: str, seat: int | None) -> Sequence[StrokeView]:
+    """The seat's own last stroke and what followed; for a spectator the last stroke."""
+    rows = connection.scalars(_SINCE_LAST if seat is None else _SINCE_OWN, {"game": game_id, "seat": seat})
+    return tuple(StrokeView.model_validate(stroke) for stroke in rows)
+
+
+def _strokes_since(last: Select[Any]) -> Select[Any]:
+    first = func.coalesce(last.order_by(moves.c.number.desc()).limit(1).scalar_subquery(), 0)
+    since = select(moves.c.stroke).where(moves.c.game_id == bindparam("game"), moves.c.number >= first)
+    return since.order_by(moves.c.number)
+
+
+_LAST: Final = select(moves.c.number).where(moves.c.game_id == bindparam("game"))
+_SINCE_LAST: Final = _strokes_since(_LAST)
+_SINCE_OWN: Final = _strokes_since(_LAST.where(moves.c.seat == bindparam("seat")))
+
+
+def noise_view(match: Row[Any], until: Holder | None) -> NoiseView:
+    """What everybody may know of a match's noise: no level while it is `withheld`."""
+    return NoiseView(told=match.noise_told, level=match.noise_level if until is None else None)
+
+
+def budget_view(match: Row[Any]) -> BudgetView | None:
+    """The match's budget of simulated shots."""
+    if match.simulations is None:
+        return None
+    return BudgetView(simulations=match.simulations, counted="by_honour")

@@ -1,0 +1,275 @@
+"""A player's action, from the complete request to the stored answer: exactly once, whatever happens.
+
+The shot is simulated between two transactions; the second stores all of it or nothing. Noise depends on the
+game's seed and the stroke's index alone, so that a shot simulated twice is the same shot.
+"""
+
+import contextlib
+import logging
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+from sqlalchemy import Connection, insert
+
+from physics import PhysicsError, Status
+from protocol import DecisionRequest, EventView, Fault, ShotRequest, StrokeAnswer, StrokeDetail, View, shown
+from referee import Action, Decision, Refusal
+from referee.play import Refused, Stroke, play_stroke
+from referee.play.clock import SECOND_NS
+from referee.record import Chain, canonical, stroke_entry
+from server import errors
+from server.http.commands import Answer, Command, keep, parse, recall
+from server.security.callers import Caller
+from server.services.play import budget, games
+from server.services.play.live_game import LiveGame
+from server.services.play.long_strokes import MOST_EVENTS, IsLong
+from server.services.runtime.context import Context, Writing
+from server.store.locks import hold_match_of
+from server.store.tables import moves
+
+log = logging.getLogger("pooliad.server.strokes")
+
+
+Move = Callable[[Connection], Command]
+"""A move as it came in: a command once its sender has been looked up, which may raise `Unauthorized`."""
+
+
+def shoot(context: Context, game_id: str, move: Move, may_be_long: bool) -> Answer:
+    """Play a stroke; raises `IsLong` for one of very many events unless it may have them."""
+    return _act(context, game_id, move, lambda command: _Asked.of(parse(command, ShotRequest)), may_be_long)
+
+
+def decide(context: Context, game_id: str, move: Move) -> Answer:
+    """Make one of the choices that a break leaves."""
+    return _act(context, game_id, move, lambda command: _Asked.of(parse(command, DecisionRequest)))
+
+
+def concede(context: Context, game_id: str, move: Move) -> Answer:
+    """Give the game up, in turn. The body is not looked at."""
+    return _act(context, game_id, move, lambda command: _Asked(Action(decision=Decision.CONCEDE)))
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """What a request asks for, and the shots its player declares to have simulated for it."""
+
+    action: Action
+    simulated: int = 0
+
+    @classmethod
+    def of(cls, request: ShotRequest | DecisionRequest) -> "_Asked":
+        return cls(request.to_action(), request.simulated)
+
+
+def _act(
+    context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked], may_be_long: bool = False
+) -> Answer:
+    """Again from the beginning as long as somebody else changes the game meanwhile: they got on with it."""
+    context.pulse.require(context.time.now())
+    while True:
+        with contextlib.suppress(games.Moved):
+            return _tried(context, game_id, move, read, may_be_long)
+
+
+def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked], may_be_long: bool) -> Answer:
+    with context.database.reading() as connection:
+        command = move(connection)
+        live = _found(context, connection, game_id, command.caller)
+        seat = live.seat_of(command.caller)
+        if stored := recall(connection, command):
+            return stored
+        _require_turn(connection, live, seat, command)
+    context.failpoint("shot-admitted")
+    with _told_why():
+        asked = read(command)
+        budget.require_left(live, seat, asked.simulated)  # before any noise is drawn
+        stroke = _played(live, asked.action, may_be_long)
+    end = games.TurnEnd(live.charge_of_action(command.arrived), games.next_move(live))
+    told = _Told.of(live, stroke, end)
+    context.failpoint("shot-simulated")
+    with context.writing() as writing:
+        hold_match_of(writing.connection, game_id)
+        live = budget.declare(writing.connection, live, seat, asked.simulated)
+        after, answer = _stored(writing, live, stroke, end, told)
+        keep(writing.connection, command, answer)
+        context.failpoint("shot-kept")
+    context.failpoint("shot-committed")
+    context.seen.keep(after)
+    _account(context, live, command, end, stroke)
+    context.wakeups.notify(live.agents)
+    context.failpoint("shot-woken")
+    return answer
+
+
+def _played(live: LiveGame, action: Action, may_be_long: bool) -> Stroke:
+    """The stroke, as the rules' limits have it; raises `IsLong`, having gone no further than an ordinary one would."""
+    rules = live.rules
+    if may_be_long or rules.limits.events <= MOST_EVENTS:
+        return play_stroke(rules, live.game, action, live.seeds, live.fixture.noise)
+    ordinary = replace(rules, limits=replace(rules.limits, events=MOST_EVENTS))
+    stroke = play_stroke(ordinary, live.game, action, live.seeds, live.fixture.noise)
+    if stroke.result is not None and stroke.result.status is Status.EVENT_LIMIT:
+        raise IsLong
+    return stroke
+
+
+def _found(context: Context, connection: Connection, game_id: str, caller: Caller) -> LiveGame:
+    """The game; a request about any but the sender's own turn is counted: on that the clock decides, not a 429."""
+    try:
+        live = context.seen.find(connection, game_id)
+    except errors.NotFound:
+        context.limits.count(caller)
+        raise
+    if live.row.mover != caller.id:
+        context.limits.count(caller)
+    return live
+
+
+def _account(context: Context, live: LiveGame, command: Command, end: games.TurnEnd, stroke: Stroke) -> None:
+    """Count and log a stroke that was stored; its id is the game's with the number of the move."""
+    context.metrics.strokes.inc()
+    context.metrics.stroke_seconds.observe(max(0, context.time.now() - command.arrived) / SECOND_NS)
+    fields = {"game": live.id, "shot": f"{live.id}/{end.move}", "seat": stroke.seat, "rules": stroke.ruling.rules}
+    log.info("stroke", extra={"fields": fields})
+
+
+def _require_turn(connection: Connection, live: LiveGame, seat: int, command: Command) -> None:
+    """The checks between repetition and content, in the contract's order: 428, 409, 412, 409."""
+    version = _version(command)
+    if not live.is_running:
+        raise errors.GameFinished(f"game {live.id} is {live.row.status}")
+    if version != live.row.version:
+        raise errors.StaleVersion(
+            f"the game is at version {live.row.version}, not {version}",
+            field="If-Match",
+            value=command.if_match,
+            allowed=f'"{live.row.version}"',
+            view=live.view(connection, seat, command.arrived),
+        )
+    if live.game.turn != seat:
+        raise errors.NotYourTurn(f"it is the turn of seat {live.game.turn}, {live.fixture.players[live.game.turn]}")
+    if live.is_out_of_time(command.arrived):
+        raise errors.OutOfTime("your time had run out when the request was complete")
+
+
+def _version(command: Command) -> int:
+    """The version in If-Match: digits, in quotes or not."""
+    text = command.if_match
+    if text is None:
+        raise errors.VersionRequired(
+            "the request does not say which view it answers",
+            field="If-Match",
+            allowed='the view\'s version, as "7"',
+        )
+    digits = text.strip().removeprefix('"').removesuffix('"')
+    if not (digits.isascii() and digits.isdecimal() and len(digits) <= 15):
+        raise errors.BadHeader(
+            "If-Match holds no version",
+            field="If-Match",
+            value=shown(text),
+            allowed='the view\'s version, as "7"',
+        )
+    return int(digits)
+
+
+@contextlib.contextmanager
+def _told_why() -> Iterator[None]:
+    """What the referee and the physics refuse, as answers."""
+    try:
+        yield
+    except Refused as refused:
+        raise errors.Refused([_fault(refusal) for refusal in refused.refusals]) from refused
+    except PhysicsError as error:
+        raise errors.invalid_physics(error) from error
+
+
+def _fault(refusal: Refusal) -> Fault:
+    return Fault(
+        code="refused",
+        field=refusal.field,
+        value=shown(refusal.value),
+        allowed=refusal.allowed,
+        detail=refusal.words,
+        rule=refusal.rule,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """A stroke in words: all of it that does not depend on when it is stored, put together while others may write.
+
+    Attributes:
+        detail: as players are told, without the events; text: the same as JSON, with them. row: of `moves`.
+        chain: of the record, the stroke's line the last.
+    """
+
+    detail: StrokeDetail
+    text: str
+    row: dict[str, Any]
+    chain: Chain
+
+    @classmethod
+    def of(cls, live: LiveGame, stroke: Stroke, end: games.TurnEnd) -> "_Told":
+        number = games.next_move(live)
+        detail, chain = StrokeDetail.of(stroke, number, events=False), Chain(live.row.head)
+        told, recorded = _events(stroke)
+        row = {
+            "game_id": live.id,
+            "number": number,
+            "seat": stroke.seat,
+            "stroke": detail.model_dump(mode="json", exclude={"events"}),
+            "line": chain.add(stroke_entry(stroke, number, end.charge.charged_ns, events=False), recorded),
+        }
+        return cls(detail, detail.model_dump_json().removesuffix(_NO_EVENTS) + told, row, chain)
+
+
+def _events(stroke: Stroke) -> tuple[str, dict[str, str]]:
+    """A stroke's events in words: the end of a `StrokeDetail`'s JSON, and the member of the record's line.
+
+    One by one, and those of a long stroke with pauses: in between, other threads have the interpreter.
+    """
+    if stroke.result is None:
+        return _NO_EVENTS, {}
+    told, recorded = [], []
+    rests = stroke.result.n_events > MOST_EVENTS
+    began = time.thread_time()
+    for number, event in enumerate(stroke.result.events):
+        values = event.to_dict()
+        told.append(EventView.model_validate(values).model_dump_json())
+        recorded.append(canonical(values))
+        if rests and number % EVENTS_AT_ONCE == 0:
+            time.sleep(REST * (time.thread_time() - began))
+            began = time.thread_time()
+    return f'"events":[{",".join(told)}]}}', {"events": f"[{','.join(recorded)}]"}
+
+
+_NO_EVENTS: Final = '"events":[]}'
+"""How the JSON of a `StrokeDetail` without events ends."""
+EVENTS_AT_ONCE: Final = 10
+"""A millisecond or two of the interpreter."""
+REST: Final = 3.0
+"""Times as long as a long stroke's events kept the interpreter, it is left to others."""
+
+
+def _stored(
+    writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd, told: _Told
+) -> tuple[LiveGame, Answer]:
+    """Write the move, the game that follows and its clocks: the game as it is then, and the answer."""
+    live = games.advance(writing, live, stroke.game, end, told.chain)
+    writing.context.failpoint("shot-advanced")
+    writing.connection.execute(_MOVE, told.row | {"created_at": writing.now})
+    writing.context.failpoint("shot-moved")
+    view = live.view_since((told.detail,), stroke.seat, writing.now)  # the player's last stroke is this one
+    return live, _answer(live, told, view)
+
+
+def _answer(live: LiveGame, told: _Told, view: View) -> Answer:
+    """A `StrokeAnswer` in JSON. Its events, which may be megabytes, were written before others had to wait."""
+    rest = StrokeAnswer.model_construct(view=view, clocks=view.clocks).model_dump_json()
+    body = f'{{"game":"{live.id}","stroke":{told.text},{rest.removeprefix("{")}'
+    return Answer(200, body.encode(), {"etag": f'"{live.row.version}"'})
+
+
+_MOVE: Final = insert(moves)

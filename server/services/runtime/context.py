@@ -1,0 +1,128 @@
+"""What every service works with: made once by `create_app`, handed down, never global."""
+
+import threading
+from collections import defaultdict
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Final, TypeVar
+
+from anyio import CapacityLimiter, to_thread
+from sqlalchemy import Connection
+
+from physics.self_test import SelfTest
+from referee.play import LagAllowance, nanoseconds
+from server import failpoints
+from server.failpoints import Failpoint
+from server.ops.metrics import Metrics
+from server.security.limits import Limits
+from server.services.physics.pool import PhysicsPool
+from server.services.play.game_cache import SeenGames
+from server.services.play.long_strokes import LongStrokes
+from server.services.runtime.heartbeat_health import Pulse
+from server.services.runtime.time import TimeSource
+from server.services.runtime.wakeups import Wakeups
+from server.services.tournaments.tournament_cache import Course, Courses
+from server.services.watch.presence import Presence
+from server.settings import Settings
+from server.store.database import Database
+
+T = TypeVar("T")
+
+THREADS_ASIDE: Final = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """One server's parts.
+
+    Attributes:
+        warm: set when the kernels are loaded; warm_up_failed: set when they could not be.
+        seen: running games that need not be read again.
+        self_test: what the physics' self-test came to, once it has passed.
+        aside: threads for what must not wait behind requests: signs of life, the timer, what is asked about health.
+        pulse: whether the signs of life reach the database.
+        in_hand: for each game the arrival times of the requests that are being worked on.
+        courses: how the tournaments stand that were asked for last.
+        failpoint: told every step at which tests have the process killed.
+        match_over: called when a match has ended, with its id, in the transaction that ended it.
+    """
+
+    settings: Settings
+    database: Database
+    time: TimeSource = field(default_factory=TimeSource)
+    wakeups: Wakeups = field(default_factory=Wakeups)
+    presence: Presence = field(default_factory=Presence)
+    warm: threading.Event = field(default_factory=threading.Event)
+    warm_up_failed: threading.Event = field(default_factory=threading.Event)
+    self_test: list[SelfTest] = field(default_factory=list)
+    metrics: Metrics = field(default_factory=Metrics)
+    aside: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(THREADS_ASIDE))
+    pulse: Pulse = field(init=False)
+    seen: SeenGames = field(default_factory=SeenGames)
+    limits: Limits = field(init=False)
+    physics: PhysicsPool = field(init=False)
+    long_strokes: LongStrokes = field(default_factory=LongStrokes)
+    in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
+    courses: Courses = field(default_factory=Courses)
+    failpoint: Failpoint = field(default_factory=lambda: failpoints.parse(""))
+    match_over: Callable[["Writing", str], None] = lambda writing, match_id: None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "pulse", Pulse(nanoseconds(self.settings.heartbeat_period)))
+        object.__setattr__(self, "limits", Limits.of(self.settings, self.time))
+        object.__setattr__(self, "physics", PhysicsPool(self.settings.physics_threads))
+
+    async def run_aside(self, work: Callable[[], T]) -> T:
+        """What `work` returns, done by a thread that no request can keep busy."""
+        return await to_thread.run_sync(work, limiter=self.aside)
+
+    @property
+    def grace(self) -> LagAllowance:
+        """What is given back of a turn for the wait until its player fetches it."""
+        return LagAllowance(nanoseconds(self.settings.fetch_grace), nanoseconds(self.settings.fetch_grace_game))
+
+    @property
+    def no_show_after(self) -> int:
+        """Nanoseconds that a player's first turn in a game may wait to be fetched."""
+        return nanoseconds(self.settings.no_show_seconds)
+
+    @contextmanager
+    def writing(self) -> Iterator["Writing"]:
+        """A transaction that commits at the end of the block and rolls back when it raises.
+
+        Then the agents in `Writing.woken` are, and `Writing.courses` are what is known.
+        """
+        with self.database.writing() as connection:
+            writing = Writing(connection, self, self.time.now())
+            yield writing
+        self.courses.keep(writing.courses)
+        if writing.woken:
+            self.wakeups.notify(writing.woken)
+
+    def clear_until(self, now: int) -> int:
+        """Every request that was complete here before then is done."""
+        return min([now, *(arrived for ours in tuple(self.in_hand.values()) for arrived in tuple(ours))])
+
+    def is_in_hand(self, game_id: str, deadline: int) -> bool:
+        """Whether a request that came before the deadline is being worked on.
+
+        The mover's clock may have stopped.
+        """
+        return any(arrived < deadline for arrived in tuple(self.in_hand.get(game_id, ())))
+
+
+@dataclass(frozen=True, slots=True)
+class Writing:
+    """A transaction that is under way: its connection, the server's parts, and the time it happens at.
+
+    Attributes:
+        woken: agents to be told that there may be news for them, once it is committed.
+        courses: of the tournaments it looked at or wrote, its own entries included.
+    """
+
+    connection: Connection
+    context: Context
+    now: int
+    woken: set[str] = field(default_factory=set, compare=False)
+    courses: dict[str, Course] = field(default_factory=dict, compare=False)

@@ -1,0 +1,197 @@
+"""Signs of life in the database, so that nobody is charged for time in which no server process ran.
+
+Every process leaves a heartbeat each second. A process that starts and finds no other alive knows how long there was
+none: every running turn is charged up to the last heartbeat and no further. It then holds all games until a process
+listens; from that moment turns can be fetched anew, and their grace begins.
+"""
+
+import asyncio
+import contextlib
+import logging
+import secrets
+from collections.abc import AsyncIterator, Iterator
+from typing import Any
+
+from sqlalchemy import ColumnElement, Connection, case, delete, func, insert, select, update
+
+from referee.play.clock import SECOND_NS
+from server.errors import Unavailable
+from server.services.play.clock import turn_clock
+from server.services.play.clock.turn_clock import HELD
+from server.services.play.live_game import RUNNING, LiveGame, find
+from server.services.runtime.context import Context, Writing
+from server.store.locks import hold_match_of, only_one
+from server.store.tables import games, heartbeats, matches
+
+log = logging.getLogger("pooliad.server.heartbeat")
+
+
+class Heartbeat:
+    """This process's signs of life."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._process = f"process_{secrets.token_hex(8)}"
+        self._period = context.settings.heartbeat_period
+        self._releases = False
+
+    @contextlib.asynccontextmanager
+    async def running(self) -> AsyncIterator[None]:
+        """Take up the games that wait, and beat for as long as the block lasts."""
+        await self._context.run_aside(self._begin)
+        task = asyncio.create_task(self._run())
+        try:
+            yield
+        finally:
+            task.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await task
+            try:
+                await self._context.run_aside(self._leave)
+            except Unavailable:
+                log.warning("the last heartbeat could not be left: the database does not answer")
+
+    async def listening(self) -> None:
+        """Requests are accepted from now on: the games that were held go on.
+
+        While the database does not answer they stay held; the next heartbeat that it takes releases them.
+        """
+        self._releases = True
+        try:
+            await self._context.run_aside(self._release)
+        except Unavailable:
+            self._context.pulse.missed()
+            log.warning("the games cannot go on yet: the database does not answer")
+
+    def _begin(self) -> None:
+        """The first process at work on the database holds the games; others that start now wait until it has."""
+        membership = self._context.database.membership
+        membership.enter()
+        self._context.time.adjust()
+        begin(self._context, self._process, alone=membership.is_alone)
+        membership.settle()
+
+    def _leave(self) -> None:
+        beat(self._context, self._process, stopped=True)
+
+    def _beat(self) -> None:
+        self._context.database.membership.renew()
+        self._context.time.adjust()
+        beat(self._context, self._process)
+        if self._releases:
+            self._release()
+        if self._context.database.writes_fail.is_set():
+            self._context.database.try_writing()
+
+    def _release(self) -> None:
+        release(self._context)
+        self._releases = False
+
+    async def _run(self) -> None:
+        while True:
+            await asyncio.sleep(self._period)
+            try:
+                await self._context.run_aside(self._beat)
+            except Unavailable:
+                self._context.pulse.missed()
+                log.warning("no heartbeat: the database does not answer; the next is due in %g s", self._period)
+            except Exception:
+                log.exception("no heartbeat; the next is due in %g s", self._period)
+
+
+def begin(context: Context, process: str, *, alone: bool) -> None:
+    """The first heartbeat; `alone` the process also holds the games that stood still, until `release`."""
+    with context.writing() as writing:
+        if alone:
+            last = writing.connection.scalar(select(func.max(heartbeats.c.beat_at)))
+            _hold(writing, writing.now if last is None else min(last, writing.now))
+            writing.connection.execute(delete(heartbeats))
+        _beat(writing, process, stopped=False)
+    context.pulse.felt(writing.now)
+
+
+def release(context: Context) -> None:
+    """Let what is held go on, as of now: turns can be fetched, players have the rest of their time to add seeds."""
+    with context.writing() as writing:
+        for live in _running(writing, games.c.deadline >= HELD):
+            _store(writing, live, turn_clock.available(writing, turn_clock.carried_on(writing, live, writing.now)))
+        waits = matches.c.opens_until
+        going_on = update(matches).where(waits >= HELD).values(opens_until=waits - HELD + writing.now)
+        writing.connection.execute(going_on)
+
+
+def beat(context: Context, process: str, *, stopped: bool = False) -> None:
+    """One more heartbeat; the first after an outage of the database gives back the time since the last."""
+    with context.writing() as writing:
+        if context.pulse.has_failed and not stopped:
+            _make_up_for_outage(writing)
+        _beat(writing, process, stopped)
+    context.pulse.felt(writing.now)
+
+
+def _make_up_for_outage(writing: Writing) -> None:
+    """When nobody could leave a heartbeat nobody could play: of several processes the first that can sees to it."""
+    if _last_before_outage(writing) is None:
+        return
+    only_one(writing.connection, "outage")
+    last = _last_before_outage(writing)
+    if last is not None:
+        log.warning("no heartbeats for %.1f s; games go on from the last", (writing.now - last) / SECOND_NS)
+        _take_up_games(writing, last)
+
+
+def _last_before_outage(writing: Writing) -> int | None:
+    """The last heartbeat of anybody, if it is too long ago."""
+    last = writing.connection.scalar(select(func.max(heartbeats.c.beat_at)))
+    gone = last is not None and writing.now - last > writing.context.pulse.longest_gap
+    return int(last) if gone else None
+
+
+def _beat(writing: Writing, process: str, stopped: bool) -> None:
+    this = heartbeats.c.process == process
+    values = {
+        "beat_at": writing.now,
+        "clear_until": writing.context.clear_until(writing.now),
+        "stopped": stopped,
+        "present": sorted(writing.context.presence.here(writing.now)),
+    }
+    if writing.connection.execute(update(heartbeats).where(this).values(values)).rowcount != 1:
+        writing.connection.execute(insert(heartbeats).values(process=process, **values))
+
+
+def is_clear(connection: Connection, context: Context, deadline: int) -> bool:
+    """Whether no process that is alive may still be at work on a request that was complete before the deadline."""
+    since = context.time.now() - context.pulse.longest_gap
+    alive = heartbeats.c.stopped.is_(False) & (heartbeats.c.beat_at > since)
+    behind = select(heartbeats.c.process).where(alive, heartbeats.c.clear_until < deadline).limit(1)
+    return connection.execute(behind).first() is None
+
+
+def _hold(writing: Writing, last: int) -> None:
+    """Charge every running turn up to the last heartbeat; nothing runs on until `release`."""
+    for live in _running(writing):
+        _store(writing, live, turn_clock.held(turn_clock.carried_on(writing, live, last)))
+    waits = matches.c.opens_until
+    left = case((waits > last, waits - last), else_=0)
+    writing.connection.execute(update(matches).where(waits < HELD).values(opens_until=HELD + left))
+
+
+def _take_up_games(writing: Writing, last: int) -> None:
+    """Charge every running turn up to the last heartbeat; it can be fetched anew at once, for the server listens."""
+    for live in _running(writing):
+        _store(writing, live, turn_clock.available(writing, turn_clock.carried_on(writing, live, last)))
+
+
+def _running(writing: Writing, *conditions: ColumnElement[bool]) -> Iterator[LiveGame]:
+    """The running games that satisfy the conditions, each locked by the transaction."""
+    found = select(games.c.id).where(games.c.status == RUNNING, *conditions)
+    for game_id in writing.connection.scalars(found).all():
+        hold_match_of(writing.connection, game_id)
+        live = find(writing.connection, game_id)
+        if live.is_running:
+            yield live
+
+
+def _store(writing: Writing, live: LiveGame, turn: dict[str, Any]) -> None:
+    writing.connection.execute(update(games).where(games.c.id == live.id).values(turn))
+    writing.woken.update(live.agents)

@@ -1,0 +1,1 @@
+"""Tournaments at a server: organised, played on, shown."""

@@ -1,0 +1,1 @@
+"""What spectators see: events of live games, and which agents are there."""

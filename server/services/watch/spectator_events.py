@@ -1,0 +1,158 @@
+"""What spectators are told about a game, read from the database: its strokes, clocks, players and result."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Final, NamedTuple
+
+from fastapi.sse import format_sse_event
+from sqlalchemy import Connection, Row, Select, func, select
+
+from protocol import GameAnswer, StreamClocks, StreamConnections, StreamResult, of_many
+from server.services.matches.match_views import summary
+from server.services.play.live_game import LiveGame, find, score_of
+from server.services.runtime.context import Context
+from server.store.rows import GameRow
+from server.store.tables import games, heartbeats, matches, moves
+
+RESULT: Final = "result"
+
+
+@dataclass(frozen=True)
+class News:
+    """One event about one game, encoded once for all who watch.
+
+    Attributes:
+        kind: ``game``, ``stroke``, ``decision``, ``clocks``, ``connections`` or ``result``.
+        data: JSON.
+        sequence: of a stroke or decision: the event's id.
+    """
+
+    game: str
+    kind: str
+    data: str
+    sequence: int | None = None
+
+    @cached_property
+    def alone(self) -> bytes:
+        """The event in the game's own stream."""
+        sequence = None if self.sequence is None else str(self.sequence)
+        return format_sse_event(event=self.kind, data_str=self.data, id=sequence)
+
+    @cached_property
+    def among_others(self) -> bytes:
+        """The event in a stream of several games."""
+        return format_sse_event(event=self.kind, data_str=of_many(self.game, self.data))
+
+
+class Marks(NamedTuple):
+    """What differs when there is news: the game's version, its running clock, who is there (by seat)."""
+
+    version: int
+    delivered: bool
+    clock_from: int
+    connected: tuple[bool, bool]
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """What the spectators of a game know already: its marks, and its strokes up to a sequence."""
+
+    marks: Marks
+    sequence: int
+
+
+def opening(context: Context, game_id: str, after: int | None) -> tuple[list[News], Standing]:
+    """How the game stands for somebody who begins to watch; raises `NotFound`.
+
+    Args:
+        context: the server's parts.
+        game_id: the game.
+        after: tell every stroke after this sequence; None: no stroke of the past.
+    """
+    with context.database.reading() as connection:
+        live = find(connection, game_id)
+        told = [] if after is None else list(_strokes(connection, game_id, after))
+        standing = _standing(context, connection, live)
+        first = GameAnswer(
+            **summary(live.row, live.fixture.withheld), view=live.view(connection, None, context.time.now())
+        )
+        news = [News(game_id, "game", first.model_dump_json()), *told, *_rest(context, connection, live, standing)]
+    return news, standing
+
+
+def since(context: Context, known: Mapping[str, Standing]) -> tuple[list[News], dict[str, Standing]]:
+    """The news about several games since they stood as known, and how those stand now that have any.
+
+    One query when nothing has happened, however many games there are.
+    """
+    news: list[News] = []
+    standings: dict[str, Standing] = {}
+    with context.database.reading() as connection:
+        for game_id in _moved(context, connection, known):
+            live, before = find(connection, game_id), known[game_id]
+            after = standings[game_id] = _standing(context, connection, live)
+            news += [*_strokes(connection, game_id, before.sequence), *_rest(context, connection, live, after, before)]
+    return news, standings
+
+
+def _moved(context: Context, connection: Connection, known: Mapping[str, Standing]) -> list[str]:
+    """The games that stand otherwise than known."""
+    columns: Select[Any] = select(
+        *(games.c.id, games.c.version, games.c.mover, games.c.delivered, games.c.clock_from),
+        *(matches.c.seat_0, matches.c.seat_1),
+    ).join(matches, games.c.match_id == matches.c.id)
+    rows = connection.execute(columns.where(games.c.id.in_(known))).all()
+    here = _here(context, connection)
+    return [row.id for row in rows if _marks(here, row, (row.seat_0, row.seat_1)) != known[row.id].marks]
+
+
+def _rest(
+    context: Context, connection: Connection, live: LiveGame, after: Standing, before: Standing | None = None
+) -> Iterator[News]:
+    """Clocks and players, where they differ from before; the result."""
+    if before is None or before.marks[:-1] != after.marks[:-1]:
+        turn = live.game.turn if live.is_running else None
+        clocks = StreamClocks(version=live.row.version, turn=turn, clocks=live.clock_views(context.time.now()))
+        yield News(live.id, "clocks", clocks.model_dump_json())
+    if live.is_running and (before is None or before.marks.connected != after.marks.connected):
+        connections = StreamConnections(connected=after.marks.connected)
+        yield News(live.id, "connections", connections.model_dump_json())
+    if not live.is_running:
+        yield News(live.id, RESULT, _result(connection, live).model_dump_json())
+
+
+def _result(connection: Connection, live: LiveGame) -> StreamResult:
+    """The score is that of the match with this game: a view has the score it is played at."""
+    summed = summary(live.row, live.fixture.withheld)
+    kept = {name: summed[name] for name in ("status", "outcome", "noise_seed")}
+    return StreamResult(**kept, score=score_of(connection, live.match.id), record=f"/v1/games/{live.id}/record")
+
+
+def _strokes(connection: Connection, game_id: str, after: int) -> Iterator[News]:
+    columns = select(moves.c.sequence, moves.c.line, moves.c.stroke["stroke"].as_integer().label("index"))
+    ours = columns.where(moves.c.game_id == game_id, moves.c.sequence > after).order_by(moves.c.sequence)
+    for row in connection.execute(ours):
+        yield News(game_id, "decision" if row.index is None else "stroke", row.line, row.sequence)
+
+
+def _standing(context: Context, connection: Connection, live: LiveGame) -> Standing:
+    last = select(func.max(moves.c.sequence)).where(moves.c.game_id == live.id)
+    return Standing(_marks(_here(context, connection), live.row, live.agents), connection.scalar(last) or 0)
+
+
+def _here(context: Context, connection: Connection) -> frozenset[str]:
+    """The agents that poll this process, or another one on the same database."""
+    now = context.time.now()
+    here = context.presence.here(now)
+    if not context.database.is_shared:
+        return here
+    fresh = heartbeats.c.beat_at > now - context.pulse.longest_gap
+    return here.union(*connection.scalars(select(heartbeats.c.present).where(fresh, ~heartbeats.c.stopped)))
+
+
+def _marks(here: frozenset[str], row: GameRow | Row[Any], seats: tuple[str, str]) -> Marks:
+    """Whoever thinks about a turn it has fetched is there, and whoever polls; nobody is when the game is over."""
+    thinks = row.mover if row.delivered else None
+    connected = [row.mover is not None and (seat == thinks or seat in here) for seat in seats]
+    return Marks(row.version, row.delivered, row.clock_from, (connected[0], connected[1]))
