@@ -15,7 +15,7 @@ from benchmarks.command import main
 from benchmarks.pairs_by_lot import cell_chances, draw_cells
 from benchmarks.recording import Row, Tables
 from tournament import GameResult, SprtTerms
-from tournament.statistics import SprtState, Verdict, expected_score, is_contradicted, rate, score_interval, sprt
+from tournament.statistics import SprtDecision, SprtState, expected_score, is_contradicted, rate, score_interval, sprt
 from tournament.statistics.bradley_terry import ELO_PER_UNIT
 from tournament.statistics.few_pairs import every_outcome
 
@@ -95,10 +95,10 @@ def errors(test: tuple[float, float], draws: float, events: int) -> Row:
         "elo0": test[0],
         "elo1": test[1],
         "draws": draws,
-        **share("false_elo1", verdicts0.count(Verdict.ELO1), events),
-        **share("false_elo0", verdicts1.count(Verdict.ELO0), events),
+        **share("false_elo1", verdicts0.count(SprtDecision.ELO1), events),
+        **share("false_elo0", verdicts1.count(SprtDecision.ELO0), events),
         "allowed": terms.alpha,
-        "undecided": verdicts0.count(Verdict.OPEN) + verdicts1.count(Verdict.OPEN),
+        "undecided": verdicts0.count(SprtDecision.OPEN) + verdicts1.count(SprtDecision.OPEN),
         "pairs_at_elo0": round(float(np.mean([state.pairs for state in at0])), 1),
         "pairs_at_elo1": round(float(np.mean([state.pairs for state in at1])), 1),
         "events": events,

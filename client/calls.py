@@ -13,7 +13,7 @@ from typing import Any, Literal, TypeVar
 import httpx2
 from pydantic import BaseModel
 
-from client.exchange import IDEMPOTENCY_KEY, Call
+from client.exchange import IDEMPOTENCY_KEY, ApiCall
 from physics import Shot, Table, TableState
 from protocol import (
     TURN_MESSAGE,
@@ -77,194 +77,198 @@ def authorization(token: str | None) -> dict[str, str]:
     return {} if token is None else {"Authorization": f"Bearer {token}"}
 
 
-def register(name: str, invitation: str | None) -> Call[AgentToken]:
+def register(name: str, invitation: str | None) -> ApiCall[AgentToken]:
     """Register an agent; the answer shows its token, once."""
     body = {"name": name} if invitation is None else {"name": name, "invitation": invitation}
-    return Call("POST", "/v1/agents", _reader(AgentToken), body=body)
+    return ApiCall("POST", "/v1/agents", _reader(AgentToken), body=body)
 
 
-def agents(cursor: str | None = None, house: bool | None = None) -> Call[AgentList]:
+def agents(cursor: str | None = None, house: bool | None = None) -> ApiCall[AgentList]:
     """One page of the registered agents; house bots alone, or all but them, when asked for."""
     params = {} if house is None else {"house": str(house).lower()}
-    return Call("GET", "/v1/agents", _reader(AgentList), params=_cursor(cursor) | params)
+    return ApiCall("GET", "/v1/agents", _reader(AgentList), params=_cursor(cursor) | params)
 
 
-def me() -> Call[AgentView]:
+def me() -> ApiCall[AgentView]:
     """The agent whose token this is."""
-    return Call("GET", "/v1/agents/me", _reader(AgentView))
+    return ApiCall("GET", "/v1/agents/me", _reader(AgentView))
 
 
-def rotate_token(agent: str) -> Call[AgentToken]:
+def rotate_token(agent: str) -> ApiCall[AgentToken]:
     """Replace an agent's token."""
-    return Call("POST", f"/v1/agents/{agent}/token", _reader(AgentToken), headers=_key())
+    return ApiCall("POST", f"/v1/agents/{agent}/token", _reader(AgentToken), headers=_key())
 
 
-def revoke_token(agent: str) -> Call[None]:
+def revoke_token(agent: str) -> ApiCall[None]:
     """Make an agent's token worthless."""
-    return Call("DELETE", f"/v1/agents/{agent}/token", _nothing, headers=_key())
+    return ApiCall("DELETE", f"/v1/agents/{agent}/token", _nothing, headers=_key())
 
 
-def create_staff_token(request: TokenRequest) -> Call[TokenSecret]:
+def create_staff_token(request: TokenRequest) -> ApiCall[TokenSecret]:
     """Make a token for somebody who does not play; the answer shows it."""
-    return Call("POST", "/v1/tokens", _reader(TokenSecret), headers=_key(), body=_json(request))
+    return ApiCall("POST", "/v1/tokens", _reader(TokenSecret), headers=_key(), body=_json(request))
 
 
-def staff_tokens(cursor: str | None = None) -> Call[TokenList]:
+def staff_tokens(cursor: str | None = None) -> ApiCall[TokenList]:
     """One page of the tokens that are not agents'."""
-    return Call("GET", "/v1/tokens", _reader(TokenList), params=_cursor(cursor))
+    return ApiCall("GET", "/v1/tokens", _reader(TokenList), params=_cursor(cursor))
 
 
-def rotate_staff_token(token_id: str) -> Call[TokenSecret]:
+def rotate_staff_token(token_id: str) -> ApiCall[TokenSecret]:
     """Replace a token under its id."""
-    return Call("POST", f"/v1/tokens/{token_id}/rotate", _reader(TokenSecret), headers=_key())
+    return ApiCall("POST", f"/v1/tokens/{token_id}/rotate", _reader(TokenSecret), headers=_key())
 
 
-def revoke_staff_token(token_id: str) -> Call[None]:
+def revoke_staff_token(token_id: str) -> ApiCall[None]:
     """Make a token worthless."""
-    return Call("DELETE", f"/v1/tokens/{token_id}", _nothing, headers=_key())
+    return ApiCall("DELETE", f"/v1/tokens/{token_id}", _nothing, headers=_key())
 
 
-def invite(request: InvitationRequest) -> Call[Invitations]:
+def invite(request: InvitationRequest) -> ApiCall[Invitations]:
     """Make codes to register with."""
-    return Call("POST", "/v1/invitations", _reader(Invitations), headers=_key(), body=_json(request))
+    return ApiCall("POST", "/v1/invitations", _reader(Invitations), headers=_key(), body=_json(request))
 
 
-def create_match(request: MatchRequest) -> Call[MatchView]:
+def create_match(request: MatchRequest) -> ApiCall[MatchView]:
     """Set up a match, or challenge the other agent to one."""
-    return Call("POST", "/v1/matches", _reader(MatchView), headers=_key(), body=_json(request))
+    return ApiCall("POST", "/v1/matches", _reader(MatchView), headers=_key(), body=_json(request))
 
 
-def matches(cursor: str | None = None, agent: str | None = None, status: MatchStatus | None = None) -> Call[MatchList]:
+def matches(
+    cursor: str | None = None, agent: str | None = None, status: MatchStatus | None = None
+) -> ApiCall[MatchList]:
     """One page of the matches, the newest first; of one agent or one status when asked for."""
     wanted = {"agent": agent, "status": status}
     params = _cursor(cursor) | {name: value for name, value in wanted.items() if value is not None}
-    return Call("GET", "/v1/matches", _reader(MatchList), params=params)
+    return ApiCall("GET", "/v1/matches", _reader(MatchList), params=params)
 
 
-def match(match_id: str) -> Call[MatchView]:
+def match(match_id: str) -> ApiCall[MatchView]:
     """A match and how its games stand."""
-    return Call("GET", f"/v1/matches/{match_id}", _reader(MatchView))
+    return ApiCall("GET", f"/v1/matches/{match_id}", _reader(MatchView))
 
 
-def accept(match_id: str, client_seed: str | None) -> Call[MatchView]:
+def accept(match_id: str, client_seed: str | None) -> ApiCall[MatchView]:
     """Accept a challenge, adding a seed to the draw or not."""
     body = _json(AcceptRequest(client_seed=client_seed))
-    return Call("POST", f"/v1/matches/{match_id}/accept", _reader(MatchView), headers=_key(), body=body)
+    return ApiCall("POST", f"/v1/matches/{match_id}/accept", _reader(MatchView), headers=_key(), body=body)
 
 
-def add_seed(match_id: str, client_seed: str) -> Call[MatchView]:
+def add_seed(match_id: str, client_seed: str) -> ApiCall[MatchView]:
     """Add a seed to the draw of a match that has not begun."""
     body = _json(ClientSeedRequest(seed=client_seed))
-    return Call("POST", f"/v1/matches/{match_id}/seed", _reader(MatchView), headers=_key(), body=body)
+    return ApiCall("POST", f"/v1/matches/{match_id}/seed", _reader(MatchView), headers=_key(), body=body)
 
 
-def keys() -> Call[KeyList]:
+def keys() -> ApiCall[KeyList]:
     """The public keys that the server signs records with."""
-    return Call("GET", "/v1/keys", _reader(KeyList))
+    return ApiCall("GET", "/v1/keys", _reader(KeyList))
 
 
-def abort(match_id: str) -> Call[MatchView]:
+def abort(match_id: str) -> ApiCall[MatchView]:
     """Stop a match."""
-    return Call("POST", f"/v1/matches/{match_id}/abort", _reader(MatchView), headers=_key())
+    return ApiCall("POST", f"/v1/matches/{match_id}/abort", _reader(MatchView), headers=_key())
 
 
-def create_tournament(request: TournamentRequest) -> Call[TournamentView]:
+def create_tournament(request: TournamentRequest) -> ApiCall[TournamentView]:
     """Make a tournament."""
-    return Call("POST", "/v1/tournaments", _reader(TournamentView), headers=_key(), body=_json(request))
+    return ApiCall("POST", "/v1/tournaments", _reader(TournamentView), headers=_key(), body=_json(request))
 
 
-def tournaments(cursor: str | None = None, status: TournamentStatus | None = None) -> Call[TournamentList]:
+def tournaments(cursor: str | None = None, status: TournamentStatus | None = None) -> ApiCall[TournamentList]:
     """One page of the tournaments, the newest first; of one status when asked for."""
     params = _cursor(cursor) | ({} if status is None else {"status": status})
-    return Call("GET", "/v1/tournaments", _reader(TournamentList), params=params)
+    return ApiCall("GET", "/v1/tournaments", _reader(TournamentList), params=params)
 
 
-def tournament(tournament_id: str) -> Call[TournamentView]:
+def tournament(tournament_id: str) -> ApiCall[TournamentView]:
     """A tournament with its games."""
-    return Call("GET", f"/v1/tournaments/{tournament_id}", _reader(TournamentView))
+    return ApiCall("GET", f"/v1/tournaments/{tournament_id}", _reader(TournamentView))
 
 
-def standings(tournament_id: str) -> Call[StandingsView]:
+def standings(tournament_id: str) -> ApiCall[StandingsView]:
     """How a tournament's entrants stand."""
-    return Call("GET", f"/v1/tournaments/{tournament_id}/standings", _reader(StandingsView))
+    return ApiCall("GET", f"/v1/tournaments/{tournament_id}/standings", _reader(StandingsView))
 
 
-def tournament_entries(tournament_id: str, cursor: int = 0) -> Call[EntriesPage]:
+def tournament_entries(tournament_id: str, cursor: int = 0) -> ApiCall[EntriesPage]:
     """One page of what was noted about a tournament, after the entry with the number ``cursor``."""
-    return Call("GET", f"/v1/tournaments/{tournament_id}/entries", _reader(EntriesPage), params={"cursor": str(cursor)})
+    return ApiCall(
+        "GET", f"/v1/tournaments/{tournament_id}/entries", _reader(EntriesPage), params={"cursor": str(cursor)}
+    )
 
 
 def direct_tournament(
     tournament_id: str, act: Act, request: VoidRequest | DisqualifyRequest | None = None
-) -> Call[TournamentView]:
+) -> ApiCall[TournamentView]:
     """Start, pause or abort a tournament, take a game or an entrant out of it."""
     body = {} if request is None else {"body": _json(request)}
-    return Call("POST", f"/v1/tournaments/{tournament_id}/{act}", _reader(TournamentView), headers=_key(), **body)
+    return ApiCall("POST", f"/v1/tournaments/{tournament_id}/{act}", _reader(TournamentView), headers=_key(), **body)
 
 
-def turns(wait: float) -> Call[TurnMessage | None]:
+def turns(wait: float) -> ApiCall[TurnMessage | None]:
     """Wait up to `wait` seconds for the caller's next message; None when there is none."""
-    return Call("GET", "/v1/turns", _turn, params={"wait": f"{wait:g}"}, poll=wait)
+    return ApiCall("GET", "/v1/turns", _turn, params={"wait": f"{wait:g}"}, poll=wait)
 
 
-def play(game_id: str, version: int, action: Action, simulated: int = 0) -> Call[StrokeAnswer]:
+def play(game_id: str, version: int, action: Action, simulated: int = 0) -> ApiCall[StrokeAnswer]:
     """Answer the view with this version: a stroke, a decision or a concession; `simulated` shots are declared."""
     headers = _key() | {"If-Match": f'"{version}"'}
     if action.decision is Decision.CONCEDE:
-        return Call("POST", f"/v1/games/{game_id}/concede", _reader(StrokeAnswer), headers=headers)
+        return ApiCall("POST", f"/v1/games/{game_id}/concede", _reader(StrokeAnswer), headers=headers)
     if action.decision is not None:
         decision = _json(DecisionRequest(decision=action.decision, simulated=simulated))
         path = f"/v1/games/{game_id}/decisions"
-        return Call("POST", path, _reader(StrokeAnswer), headers=headers, body=decision)
+        return ApiCall("POST", path, _reader(StrokeAnswer), headers=headers, body=decision)
     stroke = _json(ShotRequest.of(action, simulated))
-    return Call("POST", f"/v1/games/{game_id}/shots", _reader(StrokeAnswer), headers=headers, body=stroke)
+    return ApiCall("POST", f"/v1/games/{game_id}/shots", _reader(StrokeAnswer), headers=headers, body=stroke)
 
 
-def forfeit(game_id: str, seat: int, reason: SupervisorsReason) -> Call[GameAnswer]:
+def forfeit(game_id: str, seat: int, reason: SupervisorsReason) -> ApiCall[GameAnswer]:
     """End a game against one of its players (organiser)."""
     request = ForfeitRequest(seat=seat, reason=reason)
     path = f"/v1/games/{game_id}/forfeit"
-    return Call("POST", path, _reader(GameAnswer), headers=_key(), body=_json(request))
+    return ApiCall("POST", path, _reader(GameAnswer), headers=_key(), body=_json(request))
 
 
-def clock(game_id: str) -> Call[ClockLedger]:
+def clock(game_id: str) -> ApiCall[ClockLedger]:
     """What the turns of a game took, and what was charged."""
-    return Call("GET", f"/v1/games/{game_id}/clock", _reader(ClockLedger))
+    return ApiCall("GET", f"/v1/games/{game_id}/clock", _reader(ClockLedger))
 
 
-def game(game_id: str) -> Call[GameAnswer]:
+def game(game_id: str) -> ApiCall[GameAnswer]:
     """A game and the caller's view of it."""
-    return Call("GET", f"/v1/games/{game_id}", _reader(GameAnswer))
+    return ApiCall("GET", f"/v1/games/{game_id}", _reader(GameAnswer))
 
 
-def shots(game_id: str, cursor: int | None = None) -> Call[ShotsPage]:
+def shots(game_id: str, cursor: int | None = None) -> ApiCall[ShotsPage]:
     """One page of a game's strokes, from `cursor` on."""
-    return Call("GET", f"/v1/games/{game_id}/shots", _reader(ShotsPage), params=_cursor(cursor))
+    return ApiCall("GET", f"/v1/games/{game_id}/shots", _reader(ShotsPage), params=_cursor(cursor))
 
 
-def record(game_id: str) -> Call[bytes]:
+def record(game_id: str) -> ApiCall[bytes]:
     """The record of a finished game, JSON lines as `pooliad replay verify` takes them."""
-    return Call("GET", f"/v1/games/{game_id}/record", lambda response: response.content)
+    return ApiCall("GET", f"/v1/games/{game_id}/record", lambda response: response.content)
 
 
-def simulate(table: Table, state: TableState, shot: Shot, trace: bool, game: str | None) -> Call[SimulateAnswer]:
+def simulate(table: Table, state: TableState, shot: Shot, trace: bool, game: str | None) -> ApiCall[SimulateAnswer]:
     """One shot on the server's physics, counted against the budget of a game when one is named."""
     asked = {"shot": ShotParameters.of(shot), "trace": trace, "game": game}
     request = SimulateRequest.model_validate(_scene(table, state) | asked)
-    return Call("POST", "/v1/simulate", _reader(SimulateAnswer), headers=_key(), body=_json(request))
+    return ApiCall("POST", "/v1/simulate", _reader(SimulateAnswer), headers=_key(), body=_json(request))
 
 
-def simulate_batch(table: Table, state: TableState, shots: list[Shot], game: str | None) -> Call[BatchAnswer]:
+def simulate_batch(table: Table, state: TableState, shots: list[Shot], game: str | None) -> ApiCall[BatchAnswer]:
     """Many shots from one position on the server's physics, counted likewise."""
     asked = {"shots": tuple(ShotParameters.of(shot) for shot in shots), "game": game}
     request = BatchRequest.model_validate(_scene(table, state) | asked)
-    return Call("POST", "/v1/simulate/batch", _reader(BatchAnswer), headers=_key(), body=_json(request))
+    return ApiCall("POST", "/v1/simulate/batch", _reader(BatchAnswer), headers=_key(), body=_json(request))
 
 
-def min_elevation(table: Table, state: TableState, phi: float, a: float, b: float) -> Call[MinElevationAnswer]:
+def min_elevation(table: Table, state: TableState, phi: float, a: float, b: float) -> ApiCall[MinElevationAnswer]:
     """The least elevation (deg) at which the cue is free."""
     request = MinElevationRequest.model_validate(_scene(table, state) | {"phi": phi, "a": a, "b": b})
-    return Call("POST", "/v1/min-elevation", _reader(MinElevationAnswer), body=_json(request), pure=True)
+    return ApiCall("POST", "/v1/min-elevation", _reader(MinElevationAnswer), body=_json(request), pure=True)
 
 
 def _scene(table: Table, state: TableState) -> dict[str, Any]:

@@ -25,7 +25,7 @@ ANSWER_TIMEOUT = 30.0
 
 
 @dataclass(frozen=True, slots=True)
-class Call(Generic[Answer]):
+class ApiCall(Generic[Answer]):
     """A request, independent of who sends it and how often.
 
     Args:
@@ -64,12 +64,12 @@ class Wait:
     seconds: float
 
 
-Step = Call[Any] | Wait
+Step = ApiCall[Any] | Wait
 Outcome = httpx2.Response | httpx2.RequestError | None
 """What came of a step: a response, none that can be read, or None after a pause."""
 
 
-def exchange(call: Call[Answer], retry: Retry) -> Generator[Step, Outcome, Answer]:
+def exchange(call: ApiCall[Answer], retry: Retry) -> Generator[Step, Outcome, Answer]:
     """Yield what to do until there is an answer, and return it.
 
     Raises `client.errors.PooliadError` when the answer is a problem or none came.
@@ -87,7 +87,7 @@ def exchange(call: Call[Answer], retry: Retry) -> Generator[Step, Outcome, Answe
         yield Wait(pause)
 
 
-def _read(call: Call[Answer], response: httpx2.Response) -> Answer:
+def _read(call: ApiCall[Answer], response: httpx2.Response) -> Answer:
     """The answer in a successful response."""
     try:
         return call.read(response)
@@ -95,7 +95,7 @@ def _read(call: Call[Answer], response: httpx2.Response) -> Answer:
         raise UnexpectedAnswer(call.method, call.path, error) from error
 
 
-def _failure(call: Call[Any], outcome: Outcome) -> PooliadError:
+def _failure(call: ApiCall[Any], outcome: Outcome) -> PooliadError:
     """The exception for an attempt that brought no answer."""
     if isinstance(outcome, httpx2.Response):
         return error_of(outcome)

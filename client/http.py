@@ -8,7 +8,7 @@ import httpx2
 
 from client import calls
 from client.calls import TurnMessage
-from client.exchange import Answer, Call, Outcome, Step, Wait, exchange
+from client.exchange import Answer, ApiCall, Outcome, Step, Wait, exchange
 from client.retry import Retry
 from physics import Shot, Table, TableState
 from protocol import (
@@ -226,7 +226,7 @@ class Pooliad:
         """The least elevation (deg) at which the cue is free; None when there is none."""
         return self._send(calls.min_elevation(table, state, phi, a, b))
 
-    def _send(self, call: Call[Answer]) -> Answer:
+    def _send(self, call: ApiCall[Answer]) -> Answer:
         """Drive the exchange with a blocking connection."""
         steps = exchange(call, self._retry)
         outcome: Outcome = None

@@ -181,7 +181,7 @@ def play_game(
         budget=None if granted is None else GrantedBudget(granted, "by_driver"),
     )
     shown = _terms(header)
-    return _Table(header, chairs, seeds, shown, score, budget, watch or Watch(), timing).play()
+    return _GameInPlay(header, chairs, seeds, shown, score, budget, watch or Watch(), timing).play()
 
 
 def play_match(
@@ -241,7 +241,7 @@ def points_of(outcome: Outcome) -> tuple[float, float]:
 
 
 @dataclass(slots=True)
-class _Table:
+class _GameInPlay:
     """A game being played."""
 
     header: Header

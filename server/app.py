@@ -12,13 +12,13 @@ from starlette.exceptions import HTTPException
 from server import failpoints, openapi
 from server.errors import ServerError, handle_fault, handle_framework_error, handle_server_error
 from server.http.body_gate import BodyGate
-from server.http.drain import Farewell
+from server.http.drain import DrainAnswers
 from server.ops.telemetry import Telemetry
 from server.routes import ROUTERS
 from server.security import keys
 from server.services.accounts.house_processes import House
 from server.services.matches.matches import abort_foreign
-from server.services.play.clock.flag import Timer
+from server.services.play.clock.flag import ClockFlag
 from server.services.runtime import warmup
 from server.services.runtime.context import Context
 from server.services.runtime.heartbeat import Heartbeat
@@ -72,7 +72,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.heartbeat = Heartbeat(context)
     app.openapi = partial(openapi.document, app)  # type: ignore[method-assign]
     app.add_middleware(BodyGate, settings=settings, time=context.time)
-    app.add_middleware(Farewell, draining=context.wakeups.draining)
+    app.add_middleware(DrainAnswers, draining=context.wakeups.draining)
     app.add_middleware(Telemetry, metrics=context.metrics)
     app.state.endpoints = (*app.routes, *(route for router in ROUTERS for route in router.routes))
     for router in ROUTERS:
@@ -101,7 +101,7 @@ def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManag
         context.wakeups.start()
         warmup.start(context)
         parts = (
-            *(Relay(context), app.state.heartbeat, Timer(context), Retention(context)),
+            *(Relay(context), app.state.heartbeat, ClockFlag(context), Retention(context)),
             *(app.state.spectators, app.state.house),
         )
         async with AsyncExitStack() as stack:

@@ -34,7 +34,7 @@ BACKLOG = 2048
 """Connections that may wait to be accepted."""
 
 
-class _Server(uvicorn.Server):
+class _HintingServer(uvicorn.Server):
     """uvicorn, draining at the signal itself: its own hook comes after the connections it waits for."""
 
     def __init__(self, config: uvicorn.Config, context: Context, listening: Callable[[], Awaitable[None]]) -> None:
@@ -107,7 +107,7 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
         log_level="warning",
         timeout_graceful_shutdown=max(1, round(settings.drain_seconds)),
     )
-    _Server(config, context, started).run([server_socket])
+    _HintingServer(config, context, started).run([server_socket])
     gc.freeze()  # all is closed: the interpreter's last look for garbage takes seconds on what the compiler left
 
 

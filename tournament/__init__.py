@@ -12,7 +12,7 @@ from tournament.seeds import game_seeds
 from tournament.spec import Drawn, Entrant, Format, Seeding, Spec, TieBreak
 from tournament.sprt_terms import SprtTerms
 from tournament.standings import Standing, standings
-from tournament.tournament import Event, forfeit
+from tournament.tournament import Tournament, forfeit
 
 __all__ = [
     "PRESETS",
@@ -20,7 +20,6 @@ __all__ = [
     "Drawn",
     "Due",
     "Entrant",
-    "Event",
     "Format",
     "GameResult",
     "InvalidResult",
@@ -33,6 +32,7 @@ __all__ = [
     "SprtTerms",
     "Standing",
     "TieBreak",
+    "Tournament",
     "TournamentError",
     "forfeit",
     "game_seeds",

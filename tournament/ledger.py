@@ -9,10 +9,10 @@ from typing import Any, Protocol
 
 from tournament.errors import InvalidResult, TournamentError
 from tournament.results import GameResult
-from tournament.tournament import Event
+from tournament.tournament import Tournament
 
 
-class Entry(Protocol):
+class LedgerEntry(Protocol):
     """What was decided: a game's result (``game``), an organiser's act, or something that changes nothing."""
 
     @property
@@ -43,7 +43,7 @@ class Ledger:
         refused: entries that could not be carried out, and why.
     """
 
-    event: Event
+    event: Tournament
     begun: bool = False
     paused: bool = False
     aborted: bool = False
@@ -63,7 +63,7 @@ class Ledger:
         """Nothing is left to be done."""
         return self.aborted or self.event.finished
 
-    def after(self, entries: Iterable[Entry]) -> "Ledger":
+    def after(self, entries: Iterable[LedgerEntry]) -> "Ledger":
         """How it stands after more entries."""
         ledger, games = self, list[GameResult]()
         for entry in entries:
@@ -98,7 +98,7 @@ class Ledger:
         event = event.with_results(*fresh) if fresh else event
         return self if event is self.event else replace(self, event=event)
 
-    def _changed(self, entry: Entry) -> "Ledger":
+    def _changed(self, entry: LedgerEntry) -> "Ledger":
         act = _ACTS.get(entry.kind)
         try:
             return self if act is None else act(self, entry)
@@ -106,21 +106,21 @@ class Ledger:
             return replace(self, refused=(*self.refused, f"{entry.kind}: {error}"))
 
 
-def _result(entry: Entry) -> GameResult:
+def _result(entry: LedgerEntry) -> GameResult:
     if "result" not in entry.fields:
         raise InvalidResult("game", dict(entry.fields), "an entry with a result")
     return GameResult.from_dict(entry.fields["result"])
 
 
-def _void(ledger: Ledger, entry: Entry) -> Ledger:
+def _void(ledger: Ledger, entry: LedgerEntry) -> Ledger:
     return replace(ledger, event=ledger.event.voided(entry.fields["pair"], entry.fields["leg"]))
 
 
-def _disqualify(ledger: Ledger, entry: Entry) -> Ledger:
+def _disqualify(ledger: Ledger, entry: LedgerEntry) -> Ledger:
     return replace(ledger, event=ledger.event.disqualified(entry.fields["name"]))
 
 
-_ACTS: dict[str, Callable[[Ledger, Entry], Ledger]] = {
+_ACTS: dict[str, Callable[[Ledger, LedgerEntry], Ledger]] = {
     "void": _void,
     "disqualify": _disqualify,
     "pause": lambda ledger, _: replace(ledger, paused=True),

@@ -7,7 +7,7 @@ from typing import Any
 from tournament.formats.order import seeded
 from tournament.results import GameResult
 from tournament.spec import Format, TieBreak
-from tournament.tournament import Event
+from tournament.tournament import Tournament
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,19 +43,19 @@ class Standing:
         return values | {"tie_breaks": list(self.tie_breaks)}
 
 
-def standings(event: Event) -> tuple[Standing, ...]:
+def standings(event: Tournament) -> tuple[Standing, ...]:
     """The entrants, the best first; those of equal rank in the order of seeds."""
-    table = _Table(event)
+    table = _Crosstable(event)
     keys = {name: (table.points[name], *table.tie_breaks(name)) for name in seeded(event.spec)}
     ordered = sorted(keys, key=lambda name: keys[name], reverse=True)
     rank_of = {key: 1 + sum(other > key for other in keys.values()) for key in set(keys.values())}
     return tuple(table.line(name, rank_of[keys[name]], keys[name][1:]) for name in ordered)
 
 
-class _Table:
+class _Crosstable:
     """What the lines are computed from."""
 
-    def __init__(self, event: Event) -> None:
+    def __init__(self, event: Tournament) -> None:
         self._event = event
         self._games: dict[str, list[GameResult]] = {name: [] for name in event.spec.names}
         for game in event.counted:

@@ -21,7 +21,7 @@ _check = Checker(InvalidResult)
 
 
 @dataclass(frozen=True)
-class Event:
+class Tournament:
     """An event as it stands; a value, every change gives a new one.
 
     Attributes:

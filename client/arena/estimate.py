@@ -8,7 +8,7 @@ from typing import Any
 from client.arena.hosting import Kind
 from client.arena.tasks import play_pair
 from client.arena.terms import Terms
-from tournament import Event
+from tournament import Tournament
 from tournament.pairings import LEGS
 from tournament.size import Phases, games_of, phases_of
 
@@ -64,7 +64,7 @@ def sample(terms: Terms) -> list[float]:
     """Wall seconds of one game for each meeting that brings in an entrant not timed yet; none with remote entrants."""
     if any(each.kind is Kind.REMOTE for each in terms.hosting.values()):
         return []
-    event = Event(terms.spec.with_seed(SAMPLE_SEED))
+    event = Tournament(terms.spec.with_seed(SAMPLE_SEED))
     timed: set[str] = set()
     times: list[float] = []
     for due in event.due:

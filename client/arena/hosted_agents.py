@@ -32,7 +32,7 @@ def main() -> None:
     find_here()
     answers = _private_output()
     factory = partial(load(options.name, options.seed), **json.loads(options.options))
-    server = _Server(factory)
+    server = _LineHost(factory)
     for line in sys.stdin.buffer:
         answer = server.answer(line)
         if answer is not None:
@@ -40,7 +40,7 @@ def main() -> None:
             answers.flush()
 
 
-class _Server:
+class _LineHost:
     """An agent's instances, one a game."""
 
     def __init__(self, factory: AgentFactory) -> None:

@@ -25,7 +25,7 @@ class DamagedJournal(PooliadError):
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class JournalEntry:
     """One line.
 
     Attributes:
@@ -59,7 +59,7 @@ class Journal:
             _write_all(descriptor, line)
             os.fsync(descriptor)
 
-    def new(self) -> Iterator[Entry]:
+    def new(self) -> Iterator[JournalEntry]:
         """The complete entries since the last call, whoever wrote them.
 
         Raises:
@@ -76,10 +76,10 @@ class Journal:
             self._lines += 1
             yield self._entry(line)
 
-    def _entry(self, line: bytes) -> Entry:
+    def _entry(self, line: bytes) -> JournalEntry:
         try:
             fields = json.loads(line)
-            return Entry(fields.pop("kind"), fields.pop("at"), fields)
+            return JournalEntry(fields.pop("kind"), fields.pop("at"), fields)
         except (ValueError, KeyError, AttributeError, TypeError) as error:
             raise DamagedJournal(f"{self.path}, line {self._lines}: {line[:60]!r} is no entry: {error}") from None
 

@@ -34,7 +34,7 @@ from protocol import GameOver, NumberedEntry, SeedWanted, TournamentRequest, Tur
 from referee import Action, EndReason, Outcome, SimulationBudget
 from referee.play.seeds import SEED_BYTES
 from referee.record import read_record
-from tournament import Event, GameResult, Spec, TournamentError
+from tournament import GameResult, Spec, Tournament, TournamentError
 from tournament.ledger import Ledger
 
 PLACE = "server.json"
@@ -53,7 +53,7 @@ _RECORD = re.compile(r"/v1/games/([^/]+)/record")
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class RemoteTournament:
     """An event at a server.
 
     Attributes:
@@ -83,7 +83,7 @@ class RemoteRunner:
         self._token = token
         self._observer = observer
         self._journal = directory.journal
-        self._ledger = Ledger(Event(self._terms.spec))
+        self._ledger = Ledger(Tournament(self._terms.spec))
         self._taken = 0
         self._stop = threading.Event()
 
@@ -104,11 +104,11 @@ class RemoteRunner:
                 self._watch(server, place)
         return self._ledger
 
-    def _place(self, server: Pooliad) -> Place:
+    def _place(self, server: Pooliad) -> RemoteTournament:
         """The event at the server: the one that the directory is about, else a new one."""
         path = self._directory.path / PLACE
         if path.exists():
-            place = Place(**json.loads(path.read_text(encoding="utf-8")))
+            place = RemoteTournament(**json.loads(path.read_text(encoding="utf-8")))
             if place.url != self._url:
                 raise EventError(f"{self._directory.path} is an event at {place.url}, not at {self._url}")
             return place
@@ -117,7 +117,7 @@ class RemoteRunner:
         agents = {name: self._agent(server, name, hosting) for name, hosting in self._terms.hosting.items()}
         made = server.create_tournament(TournamentRequest(terms=self._terms.spec.to_dict(), agents=agents))
         self._drawn(replace(self._terms.spec, lots=server.tournament_entries(made.id, 0).lots))
-        place = Place(self._url, made.id, agents)
+        place = RemoteTournament(self._url, made.id, agents)
         values = {"url": place.url, "tournament": place.tournament, "agents": place.agents}
         write_whole(path, json.dumps(values, indent=2).encode())
         return place
@@ -149,7 +149,7 @@ class RemoteRunner:
         return found[0]
 
     @contextlib.contextmanager
-    def _players(self, server: Pooliad, place: Place) -> Iterator[None]:
+    def _players(self, server: Pooliad, place: RemoteTournament) -> Iterator[None]:
         """The hosted entrants at work, each with a token of its own, a thread and a process."""
         hosted = {name: each for name, each in self._terms.hosting.items() if each.kind is not Kind.REMOTE}
         tokens = {name: server.rotate_token(place.agents[name]).token for name in hosted}
@@ -166,7 +166,7 @@ class RemoteRunner:
             for thread in threads:
                 thread.join()
 
-    def _watch(self, server: Pooliad, place: Place) -> None:
+    def _watch(self, server: Pooliad, place: RemoteTournament) -> None:
         """Take over results and decisions until the event rests."""
         while True:
             view = server.tournament(place.tournament)
@@ -189,7 +189,7 @@ class RemoteRunner:
             if record := entry.fields.get(RECORD):
                 self._fetched(server, replace(GameResult.from_dict(entry.fields["result"]), record=record))
 
-    def _take(self, server: Pooliad, place: Place) -> None:
+    def _take(self, server: Pooliad, place: RemoteTournament) -> None:
         """Put the server's entries that are new into the journal, one after the other as the server has them."""
         while True:
             page = server.tournament_entries(place.tournament, self._taken)

@@ -8,7 +8,7 @@ from client.arena.directory import EventDirectory, EventError, write_whole
 from client.arena.executors import RETRIES, Pool, WorkerLost, result_of
 from client.arena.tasks import PairDone, PairTask
 from client.arena.terms import Terms
-from tournament import Due, Event, TournamentError
+from tournament import Due, Tournament, TournamentError
 from tournament.ledger import Ledger
 
 LOOK_EVERY = 0.5
@@ -35,7 +35,7 @@ class Runner:
         self._terms = Terms.from_dict(directory.terms())
         self._pool = pool
         self._observer = observer
-        self._ledger = Ledger(Event(self._terms.spec))
+        self._ledger = Ledger(Tournament(self._terms.spec))
         self._running: dict[Future[PairDone], PairTask] = {}
         self._lost: dict[str, int] = {}
 

@@ -26,7 +26,7 @@ def demo(
     """Play a real 8-ball match: embedded server and database, two agents as processes, over HTTP."""
     import secrets
 
-    from client.cli.demo_session import Stage
+    from client.cli.demo_session import DemoSession
     from client.cli.players import load_player
     from client.cli.processes import children
     from client.cli.serve import require_server
@@ -37,7 +37,7 @@ def demo(
     seed = secrets.randbelow(2**32) if seed is None else seed
     directory = _directory(out)
     with children() as started:
-        stage = Stage(started, directory, agents, seed, quiet=as_json)
+        stage = DemoSession(started, directory, agents, seed, quiet=as_json)
         report = stage.play(games, noise)
     if as_json:
         emit(report)

@@ -23,7 +23,7 @@ LEAVING_SECONDS = 15.0
 """Seconds the agents get to learn that the match is over: less than two of their polls need."""
 
 
-class Stage:
+class DemoSession:
     """A server and two agent processes, all of them children of this process.
 
     Args:

@@ -178,7 +178,7 @@ def _opened(directory: Path) -> "EventDirectory":
 
 def _ledger(event: "EventDirectory") -> "Ledger":
     from client.arena.terms import Terms
-    from tournament import Event as Played
+    from tournament import Tournament as Played
     from tournament.ledger import Ledger
 
     return Ledger(Played(Terms.from_dict(event.terms()).spec)).after(event.journal.new())

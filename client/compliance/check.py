@@ -8,7 +8,7 @@ from typing import Any
 
 from client.adapters.stdio import LOGS
 from client.cli.processes import Child
-from client.compliance.faults import Fault, FaultName, in_traffic
+from client.compliance.faults import Finding, FindingName, in_traffic
 from client.compliance.proxy import Exchange, Proxy
 from client.compliance.situations import SITUATIONS, Situation, Twist
 from client.errors import ApiError
@@ -39,7 +39,7 @@ class Report:
     """
 
     situation: Situation
-    faults: tuple[Fault, ...]
+    faults: tuple[Finding, ...]
     seconds: float | None
 
     def to_dict(self) -> dict[str, Any]:
@@ -103,7 +103,7 @@ class Checker:
             self._watch(situation, proxy, accepted)
         faults = [*in_traffic(situation, proxy.seen()), *self._missing(situation, organiser, match, accepted, proxy)]
         _call_off(organiser, match)
-        if any(fault.name in (FaultName.SILENT, FaultName.LATE, FaultName.CRASHES) for fault in faults):
+        if any(fault.name in (FindingName.SILENT, FindingName.LATE, FindingName.CRASHES) for fault in faults):
             self._stop()  # whatever it is still thinking about must not spill into the next situation
         return Report(situation, tuple(faults), None if accepted is None else accepted.done - started)
 
@@ -156,17 +156,17 @@ class Checker:
 
     def _missing(
         self, situation: Situation, organiser: Pooliad, match: MatchView, accepted: Exchange | None, proxy: Proxy
-    ) -> list[Fault]:
+    ) -> list[Finding]:
         """What it did not do, or that it left."""
         if self._crashed:
             assert self._child is not None
             words = f"it left with exit code {self._child.exit_code}:\n{self._child.last_words()}"
-            return [Fault(FaultName.CRASHES, situation.name, words)]
+            return [Finding(FindingName.CRASHES, situation.name, words)]
         if accepted is not None:
             return []
         outcome = organiser.match(match.id).played[-1].outcome
-        name = FaultName.LATE if outcome is not None and situation.seconds <= HURRY else FaultName.SILENT
-        return [Fault(name, situation.name, f"no action was accepted within {situation.seconds:g} s")]
+        name = FindingName.LATE if outcome is not None and situation.seconds <= HURRY else FindingName.SILENT
+        return [Finding(name, situation.name, f"no action was accepted within {situation.seconds:g} s")]
 
 
 def _request(situation: Situation, players: tuple[AgentToken, AgentToken]) -> MatchRequest:

@@ -17,7 +17,7 @@ SHOWN = 300
 """Characters of an answer that a fault repeats."""
 
 
-class FaultName(StrEnum):
+class FindingName(StrEnum):
     """Everything that can be wrong."""
 
     CRASHES = "crashes"
@@ -38,10 +38,10 @@ class FaultName(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Fault:
+class Finding:
     """One thing done wrong: its name, the situation's name, and what was seen, in words."""
 
-    name: FaultName
+    name: FindingName
     situation: str
     words: str
 
@@ -51,46 +51,48 @@ class Fault:
 
 
 _BY_CODE = {
-    "version_required": FaultName.NO_VERSION,
-    "stale_version": FaultName.STALE,
-    "key_reused": FaultName.KEY_REUSED,
-    "not_your_turn": FaultName.NOT_YOUR_TURN,
-    "game_finished": FaultName.ACTS_AFTER_END,
-    "out_of_time": FaultName.LATE,
-    "refused": FaultName.REFUSED,
-    "invalid": FaultName.MALFORMED,
-    "not_json": FaultName.MALFORMED,
-    "unsupported_media_type": FaultName.MALFORMED,
-    "too_large": FaultName.MALFORMED,
-    "slow_body": FaultName.MALFORMED,
+    "version_required": FindingName.NO_VERSION,
+    "stale_version": FindingName.STALE,
+    "key_reused": FindingName.KEY_REUSED,
+    "not_your_turn": FindingName.NOT_YOUR_TURN,
+    "game_finished": FindingName.ACTS_AFTER_END,
+    "out_of_time": FindingName.LATE,
+    "refused": FindingName.REFUSED,
+    "invalid": FindingName.MALFORMED,
+    "not_json": FindingName.MALFORMED,
+    "unsupported_media_type": FindingName.MALFORMED,
+    "too_large": FindingName.MALFORMED,
+    "slow_body": FindingName.MALFORMED,
 }
 
 
-def in_traffic(situation: Situation, seen: Sequence[Exchange]) -> Iterator[Fault]:
+def in_traffic(situation: Situation, seen: Sequence[Exchange]) -> Iterator[Finding]:
     """The faults that the exchanges of one situation show, each name once."""
     found = {fault.name: fault for fault in reversed(list(_all(situation, seen)))}
     yield from found.values()
 
 
-def _all(situation: Situation, seen: Sequence[Exchange]) -> Iterator[Fault]:
+def _all(situation: Situation, seen: Sequence[Exchange]) -> Iterator[Finding]:
     actions = [one for one in seen if one.is_action]
     for one in actions:
         name = _named(situation, one, seen)
         if name is not None:
-            yield Fault(name, situation.name, f"{one.path}: {one.status} {one.answer.decode(errors='replace')[:SHOWN]}")
+            yield Finding(
+                name, situation.name, f"{one.path}: {one.status} {one.answer.decode(errors='replace')[:SHOWN]}"
+            )
         if one.path.endswith("/concede") or b'"concede"' in one.body:
-            yield Fault(FaultName.CONCEDES, situation.name, "the game is not lost")
+            yield Finding(FindingName.CONCEDES, situation.name, "the game is not lost")
     yield from _reactions(situation, seen, actions)
     if _is_hammering(seen):
-        yield Fault(FaultName.HAMMERS, situation.name, f"over {MOST_POLLS} empty polls at once; use ?wait=30")
+        yield Finding(FindingName.HAMMERS, situation.name, f"over {MOST_POLLS} empty polls at once; use ?wait=30")
 
 
-def _named(situation: Situation, one: Exchange, seen: Sequence[Exchange]) -> FaultName | None:
+def _named(situation: Situation, one: Exchange, seen: Sequence[Exchange]) -> FindingName | None:
     """The fault behind a problem that the server, not the proxy, answered with."""
     if one.twisted or one.code is None:
         return None
     if one.code == "bad_header":
-        return FaultName.NO_KEY if "idempotency-key" not in one.headers else FaultName.MALFORMED
+        return FindingName.NO_KEY if "idempotency-key" not in one.headers else FindingName.MALFORMED
     if one.code == "stale_version" and situation.twist is Twist.LOST_REPLY:
         return None  # asking again with another key is clumsy, but nothing is played twice
     if one.code == "game_finished" and not _knew_the_end(one, seen):
@@ -104,19 +106,19 @@ def _knew_the_end(action: Exchange, seen: Sequence[Exchange]) -> bool:
     return any(b'"game_over"' in one.answer[:40] and action.game.encode() in one.answer[:200] for one in news)
 
 
-def _reactions(situation: Situation, seen: Sequence[Exchange], actions: Sequence[Exchange]) -> Iterator[Fault]:
+def _reactions(situation: Situation, seen: Sequence[Exchange], actions: Sequence[Exchange]) -> Iterator[Finding]:
     """What the agent did after its first action was twisted."""
     first = next((one for one in actions if one.twisted), None)
     if first is None:
         return
     later = [one for one in seen if one.at >= first.done]
     if situation.twist is Twist.LOST_REPLY and not later:
-        yield Fault(FaultName.GIVES_UP, situation.name, "after a lost reply nothing more was heard of it")
+        yield Finding(FindingName.GIVES_UP, situation.name, "after a lost reply nothing more was heard of it")
     hasty = [one for one in later if one.is_action and one.at - first.done < 0.9 * RETRY_AFTER]
     if situation.twist is Twist.DRAINING and hasty:
         waited = hasty[0].at - first.done
-        yield Fault(
-            FaultName.IMPATIENT, situation.name, f"asked again after {waited:.2f} s; Retry-After was {RETRY_AFTER} s"
+        yield Finding(
+            FindingName.IMPATIENT, situation.name, f"asked again after {waited:.2f} s; Retry-After was {RETRY_AFTER} s"
         )
 
 

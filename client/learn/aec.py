@@ -8,7 +8,7 @@ from pettingzoo import AECEnv
 
 from client import notation
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe
-from client.learn.episodes import Course, referee_of
+from client.learn.episodes import Episode, referee_of
 from physics import Table
 from referee import Game, NoiseModel
 
@@ -61,7 +61,7 @@ class EightBallAEC(AECEnv[str, Vector, Vector | None]):
         """Begin a new game; the seed fixes it and those after it."""
         if seed is not None:
             self._chance = np.random.default_rng(seed)
-        self._course = Course.begin(self._rules, self._noise, self._chance, self._start)
+        self._course = Episode.begin(self._rules, self._noise, self._chance, self._start)
         self.agents = list(SEATS)
         self.rewards = dict.fromkeys(SEATS, 0.0)
         self._cumulative_rewards = dict.fromkeys(SEATS, 0.0)

@@ -11,7 +11,7 @@ from referee.play.seeds import SEED_BYTES
 
 
 @dataclass(slots=True)
-class Course:
+class Episode:
     """A game under way.
 
     Attributes:
@@ -24,7 +24,7 @@ class Course:
     game: Game
 
     @classmethod
-    def begin(cls, rules: EightBall, noise: NoiseModel, chance: np.random.Generator, start: Game | None) -> "Course":
+    def begin(cls, rules: EightBall, noise: NoiseModel, chance: np.random.Generator, start: Game | None) -> "Episode":
         """A new game: racks, noise and the breaker drawn, or from a position."""
         seeds = GameSeeds(noise=chance.bytes(SEED_BYTES), racks=chance.bytes(SEED_BYTES))
         game = start_game(rules, seeds, int(chance.integers(2))) if start is None else start

@@ -9,7 +9,7 @@ from gymnasium.spaces import Box
 
 from client import notation
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe
-from client.learn.episodes import Course, referee_of
+from client.learn.episodes import Episode, referee_of
 from physics import Table
 from referee import Game, NoiseModel
 
@@ -51,7 +51,7 @@ class EightBallEnv(gymnasium.Env[Vector, Vector]):
         """Begin a new game, and play it on to the learner's first turn; the seed fixes it and those after it."""
         super().reset(seed=seed)
         while True:
-            self._course = Course.begin(self._rules, self._noise, self.np_random, self._start)
+            self._course = Episode.begin(self._rules, self._noise, self.np_random, self._start)
             self._seat = int(self.np_random.integers(2))
             self._opponent_plays()
             if not self._course.game.is_over:  # an opponent may win from the break: that was no game

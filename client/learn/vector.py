@@ -11,7 +11,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe_all, strokes
-from client.learn.episodes import Course, referee_of, reward
+from client.learn.episodes import Episode, referee_of, reward
 from physics import Table
 from physics.shot import FIELDS
 from referee import Game, NoiseModel
@@ -59,7 +59,7 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         """Begin all games anew; the seed fixes them and those after them."""
         super().reset(seed=seed)
         self._seats = np.zeros(self.num_envs, dtype=np.int64)
-        self._courses: list[Course] = [self._course() for _ in range(self.num_envs)]
+        self._courses: list[Episode] = [self._course() for _ in range(self.num_envs)]
         self._over: Flags = np.zeros(self.num_envs, dtype=np.bool_)
         self._begin(range(self.num_envs))
         return self._seen(), self._info()
@@ -82,8 +82,8 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         rewards = [reward(course.game, int(seat)) for course, seat in zip(self._courses, self._seats, strict=True)]
         return self._seen(), np.array(rewards), self._over.copy(), np.zeros(self.num_envs, np.bool_), self._info()
 
-    def _course(self) -> Course:
-        return Course.begin(self._rules, self._noise, self.np_random, self._start)
+    def _course(self) -> Episode:
+        return Episode.begin(self._rules, self._noise, self.np_random, self._start)
 
     def _begin(self, rows: "range | list[int]") -> None:
         """New games, played on to the learner's first turn; one that the opponent ends before it was no game."""

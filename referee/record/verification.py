@@ -25,7 +25,7 @@ from referee.record.signing import PublicKey, Seal, SealState, check_seal
 T = TypeVar("T")
 
 
-class Verdict(StrEnum):
+class RecordVerdict(StrEnum):
     """What verification found."""
 
     VERIFIED = "verified"
@@ -61,7 +61,7 @@ class Verification:
         problem: why the record is malformed, or cannot be read by this engine, in words.
     """
 
-    verdict: Verdict
+    verdict: RecordVerdict
     strokes: int = 0
     outcome: Outcome | None = None
     budget: GrantedBudget | None = None
@@ -75,7 +75,7 @@ class Verification:
     @property
     def ok(self) -> bool:
         """Whether all of the record follows, with the engine that made it or with this one."""
-        return self.verdict in (Verdict.VERIFIED, Verdict.SAME_GAME)
+        return self.verdict in (RecordVerdict.VERIFIED, RecordVerdict.SAME_GAME)
 
     def __str__(self) -> str:
         parts = (self._finding(), self._counted(), self.chain and f"broken chain: {self.chain}", self.seal)
@@ -91,7 +91,7 @@ class Verification:
 
     def _finding(self) -> str | None:
         """What the game played again has shown."""
-        if self.verdict is Verdict.MALFORMED:
+        if self.verdict is RecordVerdict.MALFORMED:
             return f"malformed: {self.problem}"
         if self.needs is not None:
             return f"made by {self.needs}; this engine, {this_engine()}, {self._of_another()}"
@@ -125,17 +125,17 @@ def verify_record(
         record = read_record(source)
         chain = chain_fault(record.lines, record.objects)
     except (RefereeError, ValueError) as error:
-        return Verification(Verdict.MALFORMED, problem=str(error))
+        return Verification(RecordVerdict.MALFORMED, problem=str(error))
     try:
         found = _replayed(record)
         seal = _read("seal", lambda values: check_seal(values, keys), record.seal, len(record.lines))
     except (RefereeError, PhysicsError, ValueError) as error:
-        return Verification(Verdict.MALFORMED, problem=str(error), chain=chain)
+        return Verification(RecordVerdict.MALFORMED, problem=str(error), chain=chain)
     verdict = found.verdict
-    if verdict is not Verdict.DIFFERENT and chain is not None:
-        verdict = Verdict.BROKEN_CHAIN
-    elif verdict is not Verdict.DIFFERENT and seal.state is SealState.INVALID:
-        verdict = Verdict.BAD_SIGNATURE
+    if verdict is not RecordVerdict.DIFFERENT and chain is not None:
+        verdict = RecordVerdict.BROKEN_CHAIN
+    elif verdict is not RecordVerdict.DIFFERENT and seal.state is SealState.INVALID:
+        verdict = RecordVerdict.BAD_SIGNATURE
     return replace(found, verdict=verdict, chain=chain, seal=seal)
 
 
@@ -147,8 +147,8 @@ def _replayed(record: Record) -> Verification:
     try:
         found = _Replay.of(record).run()
     except (RefereeError, PhysicsError, ValueError) as error:
-        return Verification(Verdict.OTHER_ENGINE, needs=engine, problem=str(error))
-    return replace(found, verdict=Verdict.SAME_GAME if found.ok else Verdict.OTHER_ENGINE, needs=engine)
+        return Verification(RecordVerdict.OTHER_ENGINE, needs=engine, problem=str(error))
+    return replace(found, verdict=RecordVerdict.SAME_GAME if found.ok else RecordVerdict.OTHER_ENGINE, needs=engine)
 
 
 class _Replay:
@@ -173,18 +173,18 @@ class _Replay:
         """Verify the whole record."""
         game = self.header.terms.start(self.seeds, self.header.number)
         if difference := self._header(game):
-            return Verification(Verdict.DIFFERENT, difference=difference)
+            return Verification(RecordVerdict.DIFFERENT, difference=difference)
         for number, entry in enumerate(self.record.entries):
             found = self._stroke(game, entry, number)
             if isinstance(found, Difference):
-                return Verification(Verdict.DIFFERENT, number, difference=found)
+                return Verification(RecordVerdict.DIFFERENT, number, difference=found)
             game = found
         strokes = len(self.record.entries)
         found_end = self._end(game)
         if isinstance(found_end, Difference):
-            return Verification(Verdict.DIFFERENT, strokes, difference=found_end)
+            return Verification(RecordVerdict.DIFFERENT, strokes, difference=found_end)
         return Verification(
-            Verdict.VERIFIED, strokes, outcome=found_end, budget=self.header.budget, simulated=self._simulated()
+            RecordVerdict.VERIFIED, strokes, outcome=found_end, budget=self.header.budget, simulated=self._simulated()
         )
 
     def _header(self, game: Game) -> Difference | None:

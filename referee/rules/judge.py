@@ -9,7 +9,7 @@ from referee.rules.ending import end_by_eight, foul_on_eight
 from referee.rules.fouls import eight_first_on_open_table
 from referee.rules.spotting import spot, spotted_balls
 from referee.rules.stalemate import dry_visits_after
-from referee.rules.stroke_facts import Finding, Stroke
+from referee.rules.stroke_facts import Finding, StrokeFacts
 
 
 class Judgement(NamedTuple):
@@ -21,12 +21,12 @@ class Judgement(NamedTuple):
     made: bool = False
 
 
-def judge(stroke: Stroke, found: Finding) -> Judgement:
+def judge(stroke: StrokeFacts, found: Finding) -> Judgement:
     """What follows from a stroke with the fouls ``found``."""
     return judge_break(stroke, found) if stroke.game.phase is Phase.BREAK else judge_play(stroke, found)
 
 
-def judge_break(stroke: Stroke, found: Finding) -> Judgement:
+def judge_break(stroke: StrokeFacts, found: Finding) -> Judgement:
     """R8 to R17."""
     evidence = (*found, *breaks.must_strike_a_ball(stroke), breaks.break_evidence(stroke))
     if choice := breaks.eight_on_break(stroke, found) or breaks.eight_and_scratch_on_break(stroke, found):
@@ -45,7 +45,7 @@ def judge_break(stroke: Stroke, found: Finding) -> Judgement:
     return Judgement(rules, evidence, _go_on(stroke, turn, state))
 
 
-def _choice(stroke: Stroke, found: Finding) -> breaks.Choice | None:
+def _choice(stroke: StrokeFacts, found: Finding) -> breaks.Choice | None:
     """What the break leaves to the opponent's choice, the 8 apart."""
     return (
         breaks.illegal_break(stroke, found)
@@ -55,7 +55,7 @@ def _choice(stroke: Stroke, found: Finding) -> breaks.Choice | None:
     )
 
 
-def judge_play(stroke: Stroke, found: Finding) -> Judgement:
+def judge_play(stroke: StrokeFacts, found: Finding) -> Judgement:
     """R18 to R47, every stroke but the break."""
     if ending := end_by_eight(stroke, found):
         outcome, proof = ending
@@ -77,7 +77,7 @@ def judge_play(stroke: Stroke, found: Finding) -> Judgement:
     return Judgement((), evidence, game, bool(continues))
 
 
-def _foul(stroke: Stroke, found: Finding) -> Judgement:
+def _foul(stroke: StrokeFacts, found: Finding) -> Judgement:
     """A foul that does not end the game: ball in hand anywhere, an open table stays open (R22)."""
     rules = (RuleId.R41, *((RuleId.R22,) if calls.table_stays_open(stroke, found) else ()))
     rules += (RuleId.R47,) if foul_on_eight(stroke, found) else ()
@@ -86,11 +86,11 @@ def _foul(stroke: Stroke, found: Finding) -> Judgement:
     return Judgement((found[0].rule, *rules), evidence, game)
 
 
-def _other_balls(stroke: Stroke) -> Finding:
+def _other_balls(stroke: StrokeFacts) -> Finding:
     return calls.other_balls_on_open_table(stroke) or calls.other_balls_stay_down(stroke)
 
 
-def _spotted(stroke: Stroke) -> tuple[TableState, tuple[str, ...]]:
+def _spotted(stroke: StrokeFacts) -> tuple[TableState, tuple[str, ...]]:
     """The table after the break with the 8 back on it, and the rules that put it there."""
     state = stroke.final
     balls = spotted_balls(stroke)
@@ -100,7 +100,7 @@ def _spotted(stroke: Stroke) -> tuple[TableState, tuple[str, ...]]:
 
 
 def _go_on(
-    stroke: Stroke,
+    stroke: StrokeFacts,
     turn: int,
     state: TableState,
     *,
@@ -111,12 +111,12 @@ def _go_on(
     return next_game(stroke.game, turn, state, Phase.PLAY, bool(stroke.pocketed), groups=groups, area=area)
 
 
-def _ask(stroke: Stroke, choice: breaks.Choice, state: TableState) -> Game:
+def _ask(stroke: StrokeFacts, choice: breaks.Choice, state: TableState) -> Game:
     """The break leaves a choice."""
     return next_game(stroke.game, choice.decider, state, Phase.DECISION, bool(stroke.pocketed), choice=choice)
 
 
-def _end(stroke: Stroke, outcome: Outcome) -> Game:
+def _end(stroke: StrokeFacts, outcome: Outcome) -> Game:
     """The stroke decided the game."""
     game, pocketed = stroke.game, bool(stroke.pocketed)
     return next_game(game, game.turn, stroke.final, Phase.OVER, pocketed, groups=game.groups, outcome=outcome)

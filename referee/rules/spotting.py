@@ -7,14 +7,14 @@ from typing import Final
 from physics.state import TableState
 from physics.table import Table
 from referee.game import EIGHT, Phase
-from referee.rules.stroke_facts import CUE_BALL, Stroke
+from referee.rules.stroke_facts import CUE_BALL, StrokeFacts
 
 SPOT_GAP: Final = 1e-6
 """m, least gap between a spotted ball and the cue ball: far above the 1e-9 m that counts as touching, and a
 fifty-thousandth of a ball's width."""
 
 
-def spotted_balls(stroke: Stroke) -> tuple[int, ...]:
+def spotted_balls(stroke: StrokeFacts) -> tuple[int, ...]:
     """R30: only the 8 is ever spotted, and only when it left play on the break."""
     if stroke.game.phase is Phase.BREAK and (stroke.eight_pocketed or stroke.eight_off_table):
         return (EIGHT,)

@@ -13,7 +13,7 @@ Finding = tuple[Evidence, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Stroke:
+class StrokeFacts:
     """One stroke under judgement.
 
     Attributes:
@@ -65,11 +65,11 @@ class Stroke:
         return None if last < first else (first, last)
 
 
-def read_stroke(table: Table, game: Game, action: Action, facts: Facts, final: TableState) -> Stroke:
+def read_stroke(table: Table, game: Game, action: Action, facts: Facts, final: TableState) -> StrokeFacts:
     """Gather what several rules ask for."""
     targets = callable_balls(game)
     pocketed, struck = balls_pocketed(facts), facts.struck_first
-    return Stroke(table, game, action, facts, final, pocketed, struck, targets, group_cleared(targets))
+    return StrokeFacts(table, game, action, facts, final, pocketed, struck, targets, group_cleared(targets))
 
 
 def balls_pocketed(facts: Facts) -> tuple[int, ...]:

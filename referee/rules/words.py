@@ -4,7 +4,7 @@ from physics.constants import POCKET_NAMES
 from physics.status import Status
 from referee.game import EIGHT, Call, CueBallArea, Decision, EndReason, Game, Phase, RuleId
 from referee.rules.calls import called_ball_made
-from referee.rules.stroke_facts import CUE_BALL, Finding, Stroke, group_of_ball
+from referee.rules.stroke_facts import CUE_BALL, Finding, StrokeFacts, group_of_ball
 
 DECISION_WORDS = {
     Decision.ACCEPT_TABLE: "accept the table",
@@ -32,7 +32,7 @@ END_WORDS = {
 }
 
 
-def describe_stroke(stroke: Stroke, found: Finding, game: Game) -> str:
+def describe_stroke(stroke: StrokeFacts, found: Finding, game: Game) -> str:
     """A stroke, its fouls and what follows, in a sentence."""
     parts = [_attempt(stroke)]
     if others := _others(stroke):
@@ -85,7 +85,7 @@ def pocket_name(pocket: int) -> str:
     return f"pocket {POCKET_NAMES[pocket]}"
 
 
-def _attempt(stroke: Stroke) -> str:
+def _attempt(stroke: StrokeFacts) -> str:
     player, call = f"Player {stroke.shooter}", stroke.action.call
     if stroke.game.phase is Phase.BREAK:
         return f"{player} breaks"
@@ -95,13 +95,13 @@ def _attempt(stroke: Stroke) -> str:
     return f"{player} {made} {ball_name(call.ball)} in {pocket_name(call.pocket)}"
 
 
-def _others(stroke: Stroke) -> list[str]:
+def _others(stroke: StrokeFacts) -> list[str]:
     made = {one.ball for one in called_ball_made(stroke)}
     pocket = stroke.facts.pocket
     return [f"{ball_name(ball)} in {pocket_name(pocket[ball])}" for ball in stroke.pocketed if ball not in made]
 
 
-def _foul(stroke: Stroke, rule: str) -> str:
+def _foul(stroke: StrokeFacts, rule: str) -> str:
     facts = stroke.facts
     match rule:
         case RuleId.R32 if facts.pocket[CUE_BALL] >= 0:

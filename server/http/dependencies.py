@@ -28,7 +28,7 @@ async def _server(request: Request) -> Context:
     return context_of(request)
 
 
-Server = Annotated[Context, Depends(_server)]
+ContextDep = Annotated[Context, Depends(_server)]
 
 
 def _caller(request: Request) -> Caller:
@@ -87,7 +87,7 @@ ANYBODY = Depends(_reader)
 """The same for an endpoint that shows everybody the same."""
 
 
-async def _watching(context: Server, caller: Reader, request: Request) -> AsyncIterator[None]:
+async def _watching(context: ContextDep, caller: Reader, request: Request) -> AsyncIterator[None]:
     """The framework ends this when the whole response is sent, or the reader is gone before its first byte."""
     with context.limits.watching(caller, _address(request)):
         yield
@@ -132,7 +132,7 @@ async def _move(request: Request) -> Move:
     return lambda connection: _sent(request, _identified(connection, request))
 
 
-Moved = Annotated[Move, Depends(_move)]
+MoveDep = Annotated[Move, Depends(_move)]
 """A player's move: whoever it is from is looked up by the transaction that looks at the game."""
 
 
@@ -166,7 +166,7 @@ async def _place(
     cursor: Annotated[
         str | None, Query(description="`next_cursor` of the page before", json_schema_extra=PLACE)
     ] = None,
-) -> paging.Place | None:
+) -> paging.PagePosition | None:
     return paging.place(cursor)
 
 
@@ -188,7 +188,7 @@ async def _search(
 
 Cursor = Annotated[int, Depends(_cursor)]
 """Of a list whose rows are numbered."""
-Place = Annotated[paging.Place | None, Depends(_place)]
+PageDep = Annotated[paging.PagePosition | None, Depends(_place)]
 """Of a list whose rows are in the order they were made."""
 Limit = Annotated[int, Depends(_limit)]
 Search = Annotated[str | None, Depends(_search)]

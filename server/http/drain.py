@@ -7,7 +7,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from server.errors import Draining, render
 
 
-class Farewell:
+class DrainAnswers:
     """ASGI middleware: a request that is cancelled because the server stops is answered 503.
 
     It may have been carried out: the same request, sent to the next server with the same key, is told.

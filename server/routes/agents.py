@@ -13,11 +13,11 @@ from server.http.dependencies import (
     Authenticated,
     Body,
     ContentType,
+    ContextDep,
     Limit,
-    Place,
+    PageDep,
     Search,
     Sent,
-    Server,
     Visitor,
     respond,
 )
@@ -33,7 +33,7 @@ router = APIRouter(prefix="/v1/agents", tags=["agents"])
     summary="Register an agent",
 )
 def register(
-    context: Server, visitor: Visitor, address: Address, body: Body, content_type: ContentType = None
+    context: ContextDep, visitor: Visitor, address: Address, body: Body, content_type: ContentType = None
 ) -> Response:
     """The answer holds the agent's token, which is shown this once."""
     request = parse_body(body, content_type, AgentRequest)
@@ -42,8 +42,8 @@ def register(
 
 @router.get("", **describe(Invalid, Unauthorized, token=False), dependencies=[ANYBODY], summary="All agents")
 def listing(
-    context: Server,
-    after: Place,
+    context: ContextDep,
+    after: PageDep,
     limit: Limit,
     search: Search,
     house: Annotated[
@@ -56,7 +56,7 @@ def listing(
 
 
 @router.get("/me", **describe(Forbidden), summary="The calling agent")
-def me(context: Server, caller: Authenticated) -> AgentView:
+def me(context: ContextDep, caller: Authenticated) -> AgentView:
     """Whose token this is."""
     return agents.me(context, caller)
 
@@ -66,13 +66,13 @@ def me(context: Server, caller: Authenticated) -> AgentView:
     **describe(*OWNED, success={200: AgentToken}, key=True),
     summary="Rotate an agent's token",
 )
-def rotate(agent_id: str, context: Server, command: Sent) -> Response:
+def rotate(agent_id: str, context: ContextDep, command: Sent) -> Response:
     """A new token; the old ones are void from now on."""
     return respond(agents.rotate(context, agent_id, command))
 
 
 @router.delete("/{agent_id}/token", **describe(*OWNED, success={204: ""}), summary="Revoke an agent's tokens")
-def revoke(agent_id: str, context: Server, caller: Authenticated) -> Response:
+def revoke(agent_id: str, context: ContextDep, caller: Authenticated) -> Response:
     """The agent is left without a token; the organiser can give it a new one."""
     agents.revoke(context, agent_id, caller)
     return Response(status_code=204)

@@ -20,7 +20,7 @@ from server.errors import (
     Unauthorized,
     VersionRequired,
 )
-from server.http.dependencies import ANYBODY, Cursor, InHand, Limit, Moved, Reader, Sent, Server, respond
+from server.http.dependencies import ANYBODY, ContextDep, Cursor, InHand, Limit, MoveDep, Reader, Sent, respond
 from server.http.describe import OWNED, describe
 from server.services.play import forfeits, history, strokes
 from server.services.play.clock import ledger
@@ -32,7 +32,7 @@ RECORD_TYPE = "application/x-ndjson"
 
 
 @router.get("", **describe(NotFound, Unauthorized, success={200: GameAnswer}, token=False), summary="How a game stands")
-def game(game_id: str, context: Server, reader: Reader) -> Response:
+def game(game_id: str, context: ContextDep, reader: Reader) -> Response:
     """As a spectator sees it, or as the caller does who plays in it. `ETag` is the version."""
     return respond(history.game(context, game_id, reader))
 
@@ -43,7 +43,7 @@ def game(game_id: str, context: Server, reader: Reader) -> Response:
     dependencies=[InHand],
     summary="Play a stroke",
 )
-async def shoot(game_id: str, context: Server, move: Moved) -> Response:
+async def shoot(game_id: str, context: ContextDep, move: MoveDep) -> Response:
     """The shot as played (with noise), its events, the ruling and the next view."""
     play = partial(strokes.shoot, context, game_id, move)
     return respond(await context.long_strokes.play(game_id, play))
@@ -55,7 +55,7 @@ async def shoot(game_id: str, context: Server, move: Moved) -> Response:
     dependencies=[InHand],
     summary="Choose after a break",
 )
-def decide(game_id: str, context: Server, move: Moved) -> Response:
+def decide(game_id: str, context: ContextDep, move: MoveDep) -> Response:
     """One of the choices that the view allows."""
     return respond(strokes.decide(context, game_id, move))
 
@@ -66,7 +66,7 @@ def decide(game_id: str, context: Server, move: Moved) -> Response:
     dependencies=[InHand],
     summary="Give the game up",
 )
-def concede(game_id: str, context: Server, move: Moved) -> Response:
+def concede(game_id: str, context: ContextDep, move: MoveDep) -> Response:
     """In turn. The request has no body."""
     return respond(strokes.concede(context, game_id, move))
 
@@ -76,7 +76,7 @@ def concede(game_id: str, context: Server, move: Moved) -> Response:
     **describe(*OWNED, GameFinished, body=ForfeitRequest, success={200: GameAnswer}, key=True),
     summary="End a game against a player",
 )
-def forfeit(game_id: str, context: Server, command: Sent) -> Response:
+def forfeit(game_id: str, context: ContextDep, command: Sent) -> Response:
     """For the organiser, who saw a player crash, stall, stay away or break the terms."""
     return respond(forfeits.forfeit(context, game_id, command))
 
@@ -87,7 +87,7 @@ def forfeit(game_id: str, context: Server, command: Sent) -> Response:
     dependencies=[ANYBODY],
     summary="The ledger of a game's clocks",
 )
-def clock(game_id: str, context: Server) -> ClockLedger:
+def clock(game_id: str, context: ContextDep) -> ClockLedger:
     """What every turn took, what of it was given back, and what was charged."""
     return ledger.read(context, game_id)
 
@@ -98,7 +98,7 @@ def clock(game_id: str, context: Server) -> ClockLedger:
     dependencies=[ANYBODY],
     summary="The strokes of a game, in pages",
 )
-def shots(game_id: str, context: Server, cursor: Cursor, limit: Limit) -> ShotsPage:
+def shots(game_id: str, context: ContextDep, cursor: Cursor, limit: Limit) -> ShotsPage:
     """Strokes and decisions in order, with their events."""
     return history.shots(context, game_id, cursor, limit)
 
@@ -113,7 +113,7 @@ def shots(game_id: str, context: Server, cursor: Cursor, limit: Limit) -> ShotsP
     dependencies=[ANYBODY],
     summary="The record of a finished game",
 )
-def record(game_id: str, context: Server) -> Response:
+def record(game_id: str, context: ContextDep) -> Response:
     """JSON lines with everything that happened and the revealed seed, for `pooliad replay verify`.
 
     With noise that the players are not told: when the match is over, and the tournament that it belongs to.

@@ -7,7 +7,7 @@ from prometheus_client import CONTENT_TYPE_PLAIN_0_0_4
 
 from referee.record import this_engine
 from server.errors import Draining, Unavailable
-from server.http.dependencies import Server
+from server.http.dependencies import ContextDep
 from server.http.describe import describe
 from server.services.runtime.context import Context
 from server.store.upgrade import head, is_current
@@ -24,7 +24,7 @@ async def healthz() -> dict[str, str]:
 
 @router.head("/readyz", include_in_schema=False)
 @router.get("/readyz", **describe(Draining, token=False, limited=False), summary="The server can take games")
-async def readyz(context: Server) -> dict[str, str]:
+async def readyz(context: ContextDep) -> dict[str, str]:
     """The kernels are loaded and pass their self-test, the database is written to and has this version's tables.
 
     And nobody shuts the server down.
@@ -63,7 +63,7 @@ def readiness(context: Context) -> dict[str, str]:
     **describe(success={200: "text/plain"}, token=False, limited=False),
     summary="What the server counts and measures, for Prometheus",
 )
-async def metrics(context: Server) -> Response:
+async def metrics(context: ContextDep) -> Response:
     """In Prometheus' text format."""
     text = await context.run_aside(partial(context.metrics.text, context.database))
     return Response(text, media_type=CONTENT_TYPE_PLAIN_0_0_4)

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query, Response
 
 from protocol import AcceptRequest, ClientSeedRequest, MatchList, MatchRequest, MatchView
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
-from server.http.dependencies import ANYBODY, Limit, Place, Search, Sent, Server, respond
+from server.http.dependencies import ANYBODY, ContextDep, Limit, PageDep, Search, Sent, respond
 from server.http.describe import NO_NUL, OWNED, describe
 from server.services.matches import matches, player_seeds
 
@@ -18,7 +18,7 @@ router = APIRouter(prefix="/v1/matches", tags=["matches"])
     **describe(Forbidden, WrongStatus, body=MatchRequest, success={201: MatchView}, key=True),
     summary="Make a match, or challenge",
 )
-def create(context: Server, command: Sent) -> Response:
+def create(context: ContextDep, command: Sent) -> Response:
     """From the organiser the match starts at once.
 
     From one of the two agents it is a challenge to the other.
@@ -30,8 +30,8 @@ def create(context: Server, command: Sent) -> Response:
     "", **describe(Invalid, Unauthorized, token=False), dependencies=[ANYBODY], summary="Matches, the newest first"
 )
 def listing(
-    context: Server,
-    after: Place,
+    context: ContextDep,
+    after: PageDep,
     limit: Limit,
     search: Search,
     agent: Annotated[str | None, Query(description="only this agent's", json_schema_extra=NO_NUL)] = None,
@@ -47,7 +47,7 @@ def listing(
 
 
 @router.get("/{match_id}", **describe(NotFound, Unauthorized, token=False), dependencies=[ANYBODY], summary="One match")
-def one(match_id: str, context: Server) -> MatchView:
+def one(match_id: str, context: ContextDep) -> MatchView:
     """The match with its games so far."""
     return matches.one(context, match_id)
 
@@ -57,7 +57,7 @@ def one(match_id: str, context: Server) -> MatchView:
     **describe(*OWNED, WrongStatus, body=AcceptRequest, optional_body=True, success={200: MatchView}, key=True),
     summary="Accept a challenge",
 )
-def accept(match_id: str, context: Server, command: Sent) -> Response:
+def accept(match_id: str, context: ContextDep, command: Sent) -> Response:
     """The first game begins, at once or when the players have had their time to add seeds.
 
     The body may be left out.
@@ -70,7 +70,7 @@ def accept(match_id: str, context: Server, command: Sent) -> Response:
     **describe(*OWNED, WrongStatus, body=ClientSeedRequest, success={200: MatchView}, key=True),
     summary="Add a seed to the draw",
 )
-def contribute(match_id: str, context: Server, command: Sent) -> Response:
+def contribute(match_id: str, context: ContextDep, command: Sent) -> Response:
     """Each player once, after the commitment was published and before the first rack."""
     return respond(player_seeds.contribute(context, match_id, command))
 
@@ -80,6 +80,6 @@ def contribute(match_id: str, context: Server, command: Sent) -> Response:
     **describe(*OWNED, WrongStatus, success={200: MatchView}, key=True),
     summary="Call a match off",
 )
-def abort(match_id: str, context: Server, command: Sent) -> Response:
+def abort(match_id: str, context: ContextDep, command: Sent) -> Response:
     """The organiser at any time; its players only while it is a challenge."""
     return respond(matches.abort(context, match_id, command))

@@ -18,7 +18,7 @@ from protocol import (
 )
 from server.errors import BudgetSpent, Forbidden, GameFinished
 from server.http.commands import Command, parse, parse_body
-from server.http.dependencies import Body, ContentType, Sent, Server, Simulating
+from server.http.dependencies import Body, ContentType, ContextDep, Sent, Simulating
 from server.http.describe import OWNED, describe
 from server.services.physics import simulations
 from server.services.play import budget
@@ -35,7 +35,7 @@ router = APIRouter(prefix="/v1", tags=["physics"])
     **describe(*GAME_PROBLEMS, body=SimulateRequest, success={200: SimulateAnswer}, optional_key=True),
     summary="Simulate one shot",
 )
-async def simulate(context: Server, _caller: Simulating, command: Sent) -> Response:
+async def simulate(context: ContextDep, _caller: Simulating, command: Sent) -> Response:
     """A shot that cannot be played is an answer too; its status says why. With `game` an Idempotency-Key is needed."""
 
     def work() -> SimulateAnswer:
@@ -52,7 +52,7 @@ async def simulate(context: Server, _caller: Simulating, command: Sent) -> Respo
     **describe(*GAME_PROBLEMS, body=BatchRequest, success={200: BatchAnswer}, optional_key=True),
     summary="Simulate many shots",
 )
-async def simulate_batch(context: Server, _caller: Simulating, command: Sent) -> Response:
+async def simulate_batch(context: ContextDep, _caller: Simulating, command: Sent) -> Response:
     """From one position, or each from its own. With `game` an Idempotency-Key is needed."""
     return await _answered(context, lambda: _batch(context, command))
 
@@ -70,7 +70,9 @@ def _batch(context: Context, command: Command) -> BatchAnswer:
     **describe(Forbidden, body=MinElevationRequest, success={200: MinElevationAnswer}),
     summary="The least elevation of a free cue",
 )
-async def min_elevation(context: Server, _caller: Simulating, body: Body, content_type: ContentType = None) -> Response:
+async def min_elevation(
+    context: ContextDep, _caller: Simulating, body: Body, content_type: ContentType = None
+) -> Response:
     """null when there is none up to the table's greatest."""
     return await _answered(
         context, lambda: simulations.min_elevation(parse_body(body, content_type, MinElevationRequest))

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Depends, Header, Query, Request, Response
 from fastapi.sse import EventSourceResponse
 
 from server.errors import BadHeader, Draining, Invalid, NotFound, Unauthorized, invalid_field
-from server.http.dependencies import A_PLACE_TO_WATCH, Server
+from server.http.dependencies import A_PLACE_TO_WATCH, ContextDep
 from server.http.describe import EVENT_STREAM, NO_NUL, NUMBER, describe
 from server.services.watch.spectators import Spectators
 from server.store import paging
@@ -20,7 +20,7 @@ AN_ID: Final = {"type": "string", "pattern": r"^[^\x00]*$"}
 SOME_GAMES: Final[dict[str, Any]] = {"minItems": 1, "maxItems": MOST_GAMES, "items": {"type": "string"} | NO_NUL}
 
 
-def _spectators(request: Request, context: Server) -> Spectators:
+def _spectators(request: Request, context: ContextDep) -> Spectators:
     if context.wakeups.draining.is_set():
         raise Draining("the server is shutting down")
     spectators: Spectators = request.app.state.spectators

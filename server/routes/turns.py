@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query, Request, Response
 
 from protocol import TurnMessage
 from server.errors import Forbidden, Invalid, invalid_field
-from server.http.dependencies import Authenticated, Server
+from server.http.dependencies import Authenticated, ContextDep
 from server.http.describe import describe
 from server.services.play.turns import wait_for_message
 
@@ -21,7 +21,7 @@ router = APIRouter(prefix="/v1/turns", tags=["turns"])
     summary="The caller's next message",
 )
 async def next_message(
-    context: Server,
+    context: ContextDep,
     caller: Authenticated,
     request: Request,
     wait: Annotated[

@@ -14,7 +14,7 @@ SHOTS_PER_REQUEST = 100
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class RequestLimits:
     """The rates of one server process, its streams and long polls."""
 
     callers: Rates
@@ -24,7 +24,7 @@ class Limits:
     polls: Places
 
     @classmethod
-    def of(cls, settings: Settings, time: TimeSource) -> "Limits":
+    def of(cls, settings: Settings, time: TimeSource) -> "RequestLimits":
         """What the settings name."""
         return cls(
             callers=Rates(settings.token_rate, settings.token_burst, time),

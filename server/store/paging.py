@@ -19,14 +19,14 @@ CURSOR_ALLOWED = "the next_cursor of the page before, as it came"
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class PagePosition:
     """A row's place in a list: when it was made, and its id among those of the same time."""
 
     created_at: int
     id: str
 
     @classmethod
-    def of(cls, row: Row[Any]) -> "Place":
+    def of(cls, row: Row[Any]) -> "PagePosition":
         """The place of a row."""
         return cls(row.created_at, row.id)
 
@@ -34,7 +34,7 @@ class Place:
         return f"{self.created_at}.{self.id}"
 
 
-def place(text: str | None) -> Place | None:
+def place(text: str | None) -> PagePosition | None:
     """The place a cursor stands for, None for the start (no cursor, or 0); raises `Invalid`."""
     if text is None or text == "0":
         return None
@@ -46,17 +46,17 @@ def place(text: str | None) -> Place | None:
         and row_id.isprintable()
     ):
         raise invalid_field("cursor", text, CURSOR_ALLOWED)
-    return Place(int(created_at), row_id)
+    return PagePosition(int(created_at), row_id)
 
 
-def oldest_first(query: Select[Any], table: Table, after: Place | None, limit: int) -> Select[Any]:
+def oldest_first(query: Select[Any], table: Table, after: PagePosition | None, limit: int) -> Select[Any]:
     """The query's rows after a place, in the order they were made, one more than the page holds."""
     if after is not None:
         query = query.where(_key(table) > (after.created_at, after.id))
     return query.order_by(table.c.created_at, table.c.id).limit(limit + 1)
 
 
-def newest_first(query: Select[Any], table: Table, after: Place | None, limit: int) -> Select[Any]:
+def newest_first(query: Select[Any], table: Table, after: PagePosition | None, limit: int) -> Select[Any]:
     """The query's rows after a place, the newest first, one more than the page holds."""
     if after is not None:
         query = query.where(_key(table) < (after.created_at, after.id))
@@ -65,7 +65,7 @@ def newest_first(query: Select[Any], table: Table, after: Place | None, limit: i
 
 def cut(rows: Sequence[Row[Any]], limit: int) -> tuple[Sequence[Row[Any]], str | None]:
     """A page of the rows, and the cursor of the next one; None when there is nothing more."""
-    return rows[:limit], str(Place.of(rows[limit - 1])) if len(rows) > limit else None
+    return rows[:limit], str(PagePosition.of(rows[limit - 1])) if len(rows) > limit else None
 
 
 def _key(table: Table) -> Any:

@@ -7,7 +7,7 @@ import pytest
 from support.events import by_lot, play, spec_of
 from support.require import require
 
-from tournament import Event, NoisePlan, SprtTerms
+from tournament import NoisePlan, SprtTerms, Tournament
 from tournament.report import event_report, page
 
 WIDE, PHONE = (1200, 900), (390, 844)
@@ -21,7 +21,7 @@ def reports(tmp_path_factory):
     folder, found = tmp_path_factory.mktemp("reports"), []
     for name, spec in (("table", table), ("test", test)):
         path = folder / f"{name}.html"
-        path.write_text(page(event_report(play(Event(spec), by_lot(3)))), encoding="utf-8")
+        path.write_text(page(event_report(play(Tournament(spec), by_lot(3)))), encoding="utf-8")
         found.append(path.as_uri())
     return found
 

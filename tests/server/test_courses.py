@@ -8,12 +8,12 @@ from support.events import result_of, spec_of
 
 from server.services.runtime.context import Context
 from server.services.tournaments import progress, tournament_views
-from server.services.tournaments.tournament_cache import MOST_KEPT, Course, Courses
+from server.services.tournaments.tournament_cache import MOST_KEPT, TournamentCache, TournamentState
 from server.settings import Settings
 from server.store.database import Database
 from server.store.tables import agents, tournaments
 from server.store.upgrade import upgrade
-from tournament import Event
+from tournament import Tournament
 from tournament.ledger import Ledger
 
 SPEC = spec_of(2, pairs=3)
@@ -38,7 +38,7 @@ def context(new_database):
 
 def note_result(writing, number):
     """Note that the first player won the n-th game."""
-    due = Event(SPEC).due[number]
+    due = Tournament(SPEC).due[number]
     result = result_of(due, due.pair.players.index("a"), record="x").to_dict()
     progress.note(
         writing, progress.hold(writing.connection, "cup"), progress.RESULT, progress.SERVER, {"result": result}
@@ -99,8 +99,8 @@ def test_nothing_is_computed_again_while_nothing_came(context):
 
 
 def test_a_later_course_is_not_replaced_by_an_earlier_one_and_few_are_kept():
-    courses, ledger = Courses(), Ledger(Event(SPEC))
-    late, early = Course(9, ledger), Course(4, ledger)
+    courses, ledger = TournamentCache(), Ledger(Tournament(SPEC))
+    late, early = TournamentState(9, ledger), TournamentState(4, ledger)
     courses.keep({"cup": late})
     courses.keep({"cup": early})
     assert courses.get("cup") is late

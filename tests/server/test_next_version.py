@@ -9,7 +9,7 @@ import os
 import pytest
 from support.require import ROOT
 
-from referee.record import Verdict, this_engine, verify_record
+from referee.record import RecordVerdict, this_engine, verify_record
 
 
 @pytest.fixture
@@ -61,7 +61,7 @@ def test_a_match_goes_on_when_the_next_version_has_the_same_engine(own_server, t
     for game in match["played"]:
         record = server.request("GET", f"/v1/games/{game['id']}/record").text.splitlines()
         found = verify_record(record)
-        assert found.verdict is Verdict.VERIFIED, str(found)
+        assert found.verdict is RecordVerdict.VERIFIED, str(found)
         header = json.loads(record[0])
         assert (header["engine"], header["commitment"]) == (this_engine().to_dict(), match["commitment"])
     fresh = table_at(server)
@@ -78,7 +78,7 @@ def test_a_match_is_called_off_when_the_next_version_has_another_engine(own_serv
     assert not table.is_running
     record = server.request("GET", f"/v1/games/{game}/record").text.splitlines()
     assert json.loads(record[-2])["outcome"]["reason"] == "aborted"
-    assert verify_record(record).verdict is Verdict.VERIFIED
+    assert verify_record(record).verdict is RecordVerdict.VERIFIED
     header = begun(server, table_at(server))
     assert header["engine"]["digest"] != this_engine().digest
 

@@ -16,7 +16,7 @@ from referee.record import read_record, verify_record
 from server.security.callers import ORGANISER
 from server.services.matches import matches
 from server.services.tournaments import tournaments
-from tournament import Event, InvalidSpec, Spec, game_seeds
+from tournament import InvalidSpec, Spec, Tournament, game_seeds
 from tournament.ledger import Act, Ledger
 from tournament.seeds import match_seed
 
@@ -46,7 +46,7 @@ def test_an_event_without_a_seed_has_dice_that_nobody_knows(cup, organiser):
         noise = {read_record(text).end["noise_secret"] for text in texts}
         for seed in range(100):
             spec = Spec.from_dict(event.terms | {"seed": seed})
-            (pair,) = Event(spec).pairs
+            (pair,) = Tournament(spec).pairs
             assert noise.isdisjoint(game_seeds(spec, pair, leg).noise.hex() for leg in (0, 1))
         for text in texts:
             assert verify_record(text).ok
@@ -64,7 +64,7 @@ def test_the_revealed_seed_leads_to_every_record(cup, organiser):
     event.act("start")
     games = event.play_out()
     spec = Spec.from_dict(event.read()["terms"])
-    (pair,) = Event(spec).pairs
+    (pair,) = Tournament(spec).pairs
     for leg, game in enumerate(games):
         end = read_record(organiser.get(f"/v1/games/{game}/record").text.splitlines()).end
         assert end["noise_secret"] == match_seed(spec, pair, leg).game(0).noise.hex()
@@ -119,7 +119,7 @@ def test_lots_are_told_to_organisers_alone_and_tell_nothing_of_the_dice(cup):
     page = event.read("/entries")
     assert page["lots"] not in event.organiser.get(f"/v1/tournaments/{event.id}").text
     known = Spec.from_dict(event.terms | {"lots": page["lots"]})
-    pairs = {pair.id: pair for pair in Event(known).plan.pairs}
+    pairs = {pair.id: pair for pair in Tournament(known).plan.pairs}
     with pytest.raises(InvalidSpec, match="reveals when the event is over"):
         match_seed(known, next(iter(pairs.values())), 0)
     for game in event.read()["played"]:
@@ -127,7 +127,7 @@ def test_lots_are_told_to_organisers_alone_and_tell_nothing_of_the_dice(cup):
         assert game["noise"] == pairs[game["pair"]].noise
     event.play_out()
     entries = [Act(each["kind"], each["fields"]) for each in event.read("/entries")["entries"]]
-    assert Ledger(Event(known)).after(entries).event.finished
+    assert Ledger(Tournament(known)).after(entries).event.finished
     assert event.read()["terms"]["lots"] == page["lots"]
 
 

@@ -7,7 +7,7 @@ from support.cup import Cup
 from support.streams import until, watching
 
 from referee.record import read_record, verify_record
-from tournament import Event, Spec, game_seeds
+from tournament import Spec, Tournament, game_seeds
 from tournament.ledger import Act, Ledger
 
 
@@ -55,7 +55,7 @@ def test_both_games_of_a_pair_have_the_racks_and_the_noise_of_the_events_seed(cu
     event.act("start")
     games = event.play_out()
     spec = Spec.from_dict(event.terms)
-    (pair,) = Event(spec).pairs
+    (pair,) = Tournament(spec).pairs
     for leg, game in enumerate(games):
         text = organiser.get(f"/v1/games/{game}/record").text
         assert verify_record(text.splitlines()).ok
@@ -202,7 +202,7 @@ def test_the_entries_are_everything_that_was_noted_in_its_order(cup):
         cursor = page["next_cursor"]
     assert [entry["kind"] for entry in first] == ["opened", "go_on", "game", "void", "game", "game"]
     assert first == event.read("/entries")["entries"]
-    ledger = Ledger(Event(Spec.from_dict(event.terms))).after(Act(each["kind"], each["fields"]) for each in first)
+    ledger = Ledger(Tournament(Spec.from_dict(event.terms))).after(Act(each["kind"], each["fields"]) for each in first)
     assert ledger.event.finished
     assert read(cursor=first[-1]["number"]) == {"entries": [], "next_cursor": None, "lots": None}
 

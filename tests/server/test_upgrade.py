@@ -11,7 +11,7 @@ from sqlalchemy import MetaData, create_engine, func, insert, select
 from support.cup import Cup
 from support.require import ROOT
 
-from referee.record import Engine, PublicKey, Verdict, read_record, this_engine, verify_record
+from referee.record import Engine, PublicKey, RecordVerdict, read_record, this_engine, verify_record
 from server.store.upgrade import SCRIPTS
 
 FIXTURES = ROOT / "tests" / "upgrade"
@@ -81,7 +81,7 @@ def test_finished_games_verify_and_say_which_engine_made_them(upgraded):
     for game in LEFT["records"]:
         found = verify_record(record_of(upgraded, game).splitlines(), keys)
         assert found.ok, str(found)
-        assert found.verdict is Verdict.SAME_GAME
+        assert found.verdict is RecordVerdict.SAME_GAME
         assert found.needs == Engine.from_dict(LEFT["engine"])
 
 
@@ -155,6 +155,6 @@ def test_the_event_that_was_on_goes_on_and_ends(upgraded, player_with):
     assert (view["status"], view["games"]) == ("running", 1)
     (game,) = event.play_out()
     record = record_of(upgraded, game).splitlines()
-    assert verify_record(record).verdict is Verdict.VERIFIED
+    assert verify_record(record).verdict is RecordVerdict.VERIFIED
     assert read_record(record).header["engine"] == this_engine().to_dict()
     assert (event.read()["status"], event.read()["games"]) == ("finished", 2)

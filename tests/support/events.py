@@ -3,7 +3,7 @@
 import random
 from collections.abc import Callable
 
-from tournament import Due, Entrant, Event, GameResult, Spec
+from tournament import Due, Entrant, GameResult, Spec, Tournament
 
 Chooser = Callable[[Due], int | None]
 """Who wins a game: a seat, or None for a draw."""
@@ -41,7 +41,7 @@ def by_lot(seed: int, draws: bool = True) -> Chooser:
     return lambda due: chance.choice([0, 1, None] if draws else [0, 1])
 
 
-def play(event: Event, choose: Chooser, most: int = 100_000) -> Event:
+def play(event: Tournament, choose: Chooser, most: int = 100_000) -> Tournament:
     """Play what is due, in order, until nothing is."""
     for _ in range(most):
         if event.finished:

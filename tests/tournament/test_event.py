@@ -8,13 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.events import by_lot, play, result_of, spec_of
 
-from tournament import Event, GameResult, InvalidResult, NoisePlan, game_seeds, standings
+from tournament import GameResult, InvalidResult, NoisePlan, Tournament, game_seeds, standings
 
 
 def test_the_games_of_a_pair_share_racks_and_never_noise():
     """Else the second game could be played with the first one's noise known."""
     spec = spec_of(3, pairs=2)
-    dues = Event(spec).due
+    dues = Tournament(spec).due
     seeds = {due.id: game_seeds(spec, due.pair, due.leg) for due in dues}
     for one, other in combinations(dues, 2):
         same = one.pair == other.pair
@@ -24,33 +24,33 @@ def test_the_games_of_a_pair_share_racks_and_never_noise():
 
 def test_a_game_played_again_has_noise_of_its_own():
     spec = spec_of(2)
-    pair = Event(spec).due[0].pair
+    pair = Tournament(spec).due[0].pair
     first, again = game_seeds(spec, pair, 0, 0), game_seeds(spec, pair, 0, 1)
     assert first.racks == again.racks
     assert first.noise != again.noise
 
 
 def test_seeds_depend_on_the_events_seed_alone():
-    pair = Event(spec_of(2)).due[0].pair
+    pair = Tournament(spec_of(2)).due[0].pair
     assert game_seeds(spec_of(2), pair, 0) == game_seeds(spec_of(2), pair, 0)
     assert game_seeds(spec_of(2, seed=1), pair, 0) != game_seeds(spec_of(2, seed=2), pair, 0)
     assert game_seeds(spec_of(2, seed="00" * 32), pair, 0) != game_seeds(spec_of(2, seed=0), pair, 0)
 
 
 def test_variable_levels_fill_the_range_and_are_the_pairs_own():
-    levels = [pair.noise for pair in Event(spec_of(2, pairs=400, noise=NoisePlan.variable(1.0, 4.0))).pairs]
+    levels = [pair.noise for pair in Tournament(spec_of(2, pairs=400, noise=NoisePlan.variable(1.0, 4.0))).pairs]
     assert 1.0 <= min(levels) < 1.1
     assert 3.9 < max(levels) <= 4.0
     assert len(set(levels)) == 400
 
 
 def test_several_levels_come_in_turn():
-    levels = [pair.noise for pair in Event(spec_of(2, pairs=5, noise=NoisePlan((0.0, 1.0)))).pairs]
+    levels = [pair.noise for pair in Tournament(spec_of(2, pairs=5, noise=NoisePlan((0.0, 1.0)))).pairs]
     assert levels == [0.0, 1.0, 0.0, 1.0, 0.0]
 
 
 def test_a_void_game_is_due_again():
-    event = play(Event(spec_of(2)), lambda due: 0)
+    event = play(Tournament(spec_of(2)), lambda due: 0)
     assert event.finished
     event = event.voided("r0-m0-p0", 1)
     (due,) = event.due
@@ -62,7 +62,7 @@ def test_a_void_game_is_due_again():
 
 
 def test_an_aborted_game_is_due_again():
-    event = Event(spec_of(2))
+    event = Tournament(spec_of(2))
     due = event.due[0]
     aborted = GameResult(due.pair.id, 0, due.pair.players, 0, None, "aborted")
     event = event.with_results(aborted)
@@ -71,7 +71,7 @@ def test_an_aborted_game_is_due_again():
 
 
 def test_a_round_that_another_was_drawn_from_stands():
-    event = Event(spec_of(4, format="swiss", rounds=2))
+    event = Tournament(spec_of(4, format="swiss", rounds=2))
     event = event.with_results(*(result_of(due, 0) for due in event.due))
     assert event.voided("r0-m0-p0", 0).due
     event = event.with_results(result_of(event.due[0], 0))
@@ -81,7 +81,7 @@ def test_a_round_that_another_was_drawn_from_stands():
 
 def test_a_pair_that_an_extra_pair_followed_from_stands():
     """Seen: void, it took the extra pair out of the plan, and the event with its result could not be read any more."""
-    event = Event(spec_of(2, format="knockout"))
+    event = Tournament(spec_of(2, format="knockout"))
     event = event.with_results(*(result_of(due, None) for due in event.due))
     assert event.voided("r0-m0-p0", 0).due
     event = event.with_results(result_of(event.due[0], 0))
@@ -92,12 +92,12 @@ def test_a_pair_that_an_extra_pair_followed_from_stands():
 
 def test_a_plan_that_cannot_change_is_made_once():
     """Else an event of many games would plan them all again after each of them."""
-    event = Event(spec_of(4))
+    event = Tournament(spec_of(4))
     plan = event.plan
     event = event.with_results(result_of(event.due[0], 0))
     assert event.plan is plan
     assert len(event.due) == 11
-    stray = result_of(Event(spec_of(8)).due[-1], 0)
+    stray = result_of(Tournament(spec_of(8)).due[-1], 0)
     with pytest.raises(InvalidResult, match="a pair of this event"):
         event.with_results(stray)
     assert event.voided("r0-m0-p0", 0).plan == plan
@@ -105,7 +105,7 @@ def test_a_plan_that_cannot_change_is_made_once():
 
 def test_only_a_game_with_a_result_can_be_void():
     with pytest.raises(InvalidResult, match="a game with a result"):
-        Event(spec_of(2)).voided("r0-m0-p0", 0)
+        Tournament(spec_of(2)).voided("r0-m0-p0", 0)
 
 
 @given(
@@ -117,7 +117,7 @@ def test_only_a_game_with_a_result_can_be_void():
 @settings(max_examples=60, deadline=None)
 def test_an_event_goes_on_to_its_end_without_the_disqualified(kind, entrants, after, seed):
     spec = spec_of(entrants, format=kind, **({"rounds": 3} if kind == "swiss" else {}))
-    event, choose = Event(spec), by_lot(seed)
+    event, choose = Tournament(spec), by_lot(seed)
     for _ in range(after):
         if event.due:
             event = event.with_results(result_of(event.due[0], choose(event.due[0])))
@@ -144,7 +144,7 @@ def test_an_event_goes_on_to_its_end_without_the_disqualified(kind, entrants, af
 )
 def test_who_is_disqualified_in_a_meeting_of_a_knockout_goes_no_further(terms, won, planned):
     """Seen: an extra pair against nobody, or the next round for the one who was out."""
-    event = Event(spec_of(4, format="knockout", **terms))
+    event = Tournament(spec_of(4, format="knockout", **terms))
     out, other = event.due[0].pair.players
     for number in range(won):
         # the first pair is drawn where there is to be an extra one
@@ -161,7 +161,7 @@ def test_who_is_disqualified_in_a_meeting_of_a_knockout_goes_no_further(terms, w
 
 
 def test_who_is_disqualified_after_its_meeting_stays_its_winner():
-    event = Event(spec_of(4, format="knockout"))
+    event = Tournament(spec_of(4, format="knockout"))
     event = event.with_results(*(result_of(due, 0) for due in event.due if due.pair.meeting == 0))
     (winner,) = event.plan.advanced
     end = play(event.disqualified(winner), lambda due: 0)
@@ -170,7 +170,7 @@ def test_who_is_disqualified_after_its_meeting_stays_its_winner():
 
 
 def test_a_game_of_one_who_has_left_is_not_played_again():
-    event = Event(spec_of(2))
+    event = Tournament(spec_of(2))
     event = event.with_results(result_of(event.due[0], 0)).disqualified("a")
     with pytest.raises(InvalidResult, match="a has left"):
         event.voided("r0-m0-p0", 0)
@@ -178,7 +178,7 @@ def test_a_game_of_one_who_has_left_is_not_played_again():
 
 def test_nobody_else_can_be_disqualified():
     with pytest.raises(InvalidResult, match="name = 'z': an entrant of event"):
-        Event(spec_of(2)).disqualified("z")
+        Tournament(spec_of(2)).disqualified("z")
 
 
 @pytest.mark.parametrize(
@@ -202,7 +202,7 @@ def test_nobody_else_can_be_disqualified():
     ],
 )
 def test_a_result_that_cannot_be_is_named(change, words):
-    good = result_of(Event(spec_of(2)).due[0], 0).to_dict()
+    good = result_of(Tournament(spec_of(2)).due[0], 0).to_dict()
     assert GameResult.from_dict(good).to_dict() == good
     with pytest.raises(InvalidResult) as error:
         GameResult.from_dict(good | change)
@@ -210,7 +210,7 @@ def test_a_result_that_cannot_be_is_named(change, words):
 
 
 def test_events_and_errors_cross_process_borders():
-    event = play(Event(spec_of(3)), by_lot(1))
+    event = play(Tournament(spec_of(3)), by_lot(1))
     with pytest.raises(InvalidResult) as raised:
         event.disqualified("z")
     assert str(pickle.loads(pickle.dumps(raised.value))) == str(raised.value)

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.events import result_of, spec_of
 
-from tournament import Event, Format
+from tournament import Format, Tournament
 from tournament.ledger import Act, Ledger
 
 KINDS = ["game"] * 30 + ["aborted"] * 4 + ["void"] * 3 + ["disqualify", "pause", "go_on", "incident"]
@@ -26,7 +26,7 @@ def entry_by_lot(event, chance):
 
 def entries_by_lot(spec, chance):
     """A course in the order in which somebody noted it."""
-    entries, ledger = [], Ledger(Event(spec))
+    entries, ledger = [], Ledger(Tournament(spec))
     while len(entries) < 80 and not ledger.over:
         entries.append(entry_by_lot(ledger.event, chance))
         ledger = ledger.after(entries[-1:])
@@ -43,8 +43,8 @@ def test_it_is_the_same_whether_read_in_parts_or_at_once(seed, kind):
     chance = random.Random(seed)
     spec = spec_of(5, format=kind, rounds=3 if kind is Format.SWISS else None)
     entries = entries_by_lot(spec, chance)
-    whole = Ledger(Event(spec)).after(entries)
-    parts = Ledger(Event(spec))
+    whole = Ledger(Tournament(spec)).after(entries)
+    parts = Ledger(Tournament(spec))
     while entries:
         size = chance.randint(1, len(entries))
         parts, entries = parts.after(entries[:size]), entries[size:]
@@ -53,6 +53,6 @@ def test_it_is_the_same_whether_read_in_parts_or_at_once(seed, kind):
 
 
 def test_it_is_begun_by_the_first_go_on_and_stays_so():
-    ledger = Ledger(Event(spec_of(2)))
+    ledger = Ledger(Tournament(spec_of(2)))
     assert not ledger.after([Act("pause", {})]).begun
     assert ledger.after([Act("go_on", {}), Act("pause", {})]).begun

@@ -3,13 +3,13 @@
 import pytest
 from support.events import result_of, spec_of
 
-from tournament import Event, SprtTerms
+from tournament import SprtTerms, Tournament
 from tournament.size import games_of, phases_of
 
 
 def played(spec, winner_of):
     """Pairs that are due at the same time, phase after phase, when all of them are played before anything else."""
-    event, phases = Event(spec), []
+    event, phases = Tournament(spec), []
     while not event.finished:
         phases.append(len({due.pair for due in event.due}))
         event = event.with_results(*(result_of(due, winner_of(due)) for due in event.due))

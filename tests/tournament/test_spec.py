@@ -6,7 +6,7 @@ import math
 import pytest
 from support.events import spec_of
 
-from tournament import PRESETS, Entrant, Event, InvalidSpec, NoisePlan, Spec, SprtTerms, game_seeds
+from tournament import PRESETS, Entrant, InvalidSpec, NoisePlan, Spec, SprtTerms, Tournament, game_seeds
 
 WHOLE = {"name": "Winter open", "entrants": ["greedy", {"name": "b", "agent": "python b.py"}]}
 
@@ -97,25 +97,25 @@ def test_what_is_given_overrides_the_preset():
 
 def test_an_event_without_a_seed_repeats_where_no_server_draws_one():
     spec = Spec.from_dict(WHOLE | {"seeding": "drawn", "noise": {"range": [0.0, 5.0]}})
-    (pair,) = Event(spec).pairs
+    (pair,) = Tournament(spec).pairs
     assert spec.foreseeable
-    assert Event(spec.with_seed(0)).pairs == (pair,)
+    assert Tournament(spec.with_seed(0)).pairs == (pair,)
     assert game_seeds(spec, pair, 0) == game_seeds(spec.with_seed(0), pair, 0)
-    assert Event(spec.with_seed(1)).pairs != (pair,)
+    assert Tournament(spec.with_seed(1)).pairs != (pair,)
 
 
 def test_lots_draw_order_and_levels_and_nothing_of_racks_and_noise():
     terms = WHOLE | {"seeding": "drawn", "noise": {"range": [0.0, 5.0]}, "lots": "ab" * 32}
     secret = Spec.from_dict(terms)
-    (pair,) = Event(secret).pairs
+    (pair,) = Tournament(secret).pairs
     assert not secret.foreseeable
     with pytest.raises(InvalidSpec, match="reveals when the event is over"):
         game_seeds(secret, pair, 0)
     one, other = (Spec.from_dict(terms | {"seed": digits * 32}) for digits in ("cd", "ef"))
-    assert Event(one).pairs == Event(other).pairs == (pair,)
+    assert Tournament(one).pairs == Tournament(other).pairs == (pair,)
     assert game_seeds(one, pair, 0).noise != game_seeds(other, pair, 0).noise
     assert game_seeds(one, pair, 0).rack_seed != game_seeds(other, pair, 0).rack_seed
-    assert Event(Spec.from_dict(terms | {"lots": "cd" * 32})).pairs != (pair,)
+    assert Tournament(Spec.from_dict(terms | {"lots": "cd" * 32})).pairs != (pair,)
     told = Spec.from_dict(one.revealed())
     assert (told.seed, told.lots) == (one.seed, one.lots)
 

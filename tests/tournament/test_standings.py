@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.events import by_lot, play, spec_of
 
-from tournament import Event, TieBreak, standings
+from tournament import TieBreak, Tournament, standings
 
 
 def winner_by(table):
@@ -20,7 +20,7 @@ def winner_by(table):
 def test_points_then_the_games_among_the_tied():
     """a and b have 4 points each of 6 games; a won both against b."""
     table = {("a", "b"), ("b", "c"), ("b", "d"), ("a", "d"), ("c", "a"), ("c", "d")}
-    event = play(Event(spec_of(4)), winner_by(table))
+    event = play(Tournament(spec_of(4)), winner_by(table))
     lines = standings(event)
     assert [line.points for line in lines] == [4.0, 4.0, 4.0, 0.0]
     assert [line.tie_breaks[0] for line in lines] == [2.0, 2.0, 2.0, 0.0], "a circle: each took 2 points of 4"
@@ -31,7 +31,7 @@ def test_sonneborn_berger_counts_the_points_of_the_beaten():
     """a beats the second, b the last: the same points, a above b."""
     spec = spec_of(4, tie_breaks=(TieBreak.SONNEBORN_BERGER,))
     table = {("a", "c"), ("b", "d"), ("c", "d")}
-    lines = {line.name: line for line in standings(play(Event(spec), winner_by(table)))}
+    lines = {line.name: line for line in standings(play(Tournament(spec), winner_by(table)))}
     assert {name: line.points for name, line in lines.items()} == {"a": 4.0, "b": 4.0, "c": 3.0, "d": 1.0}
     # a: draws b and d, wins c: 0.5 * 4 + 0.5 * 1 + 3
     assert lines["a"].tie_breaks == (5.5,)
@@ -41,7 +41,7 @@ def test_sonneborn_berger_counts_the_points_of_the_beaten():
 
 
 def test_buchholz_adds_the_opponents_points():
-    event = play(Event(spec_of(4, format="swiss", rounds=2)), winner_by({("a", "c"), ("b", "d"), ("a", "b")}))
+    event = play(Tournament(spec_of(4, format="swiss", rounds=2)), winner_by({("a", "c"), ("b", "d"), ("a", "b")}))
     lines = {line.name: line for line in standings(event)}
     assert lines["a"].points == 2.0
     assert lines["a"].tie_breaks[0] == lines["b"].points + lines["c"].points
@@ -50,7 +50,7 @@ def test_buchholz_adds_the_opponents_points():
 @given(st.sampled_from(["round_robin", "gauntlet", "swiss", "knockout"]), st.integers(2, 8), st.integers(0, 2**16))
 @settings(max_examples=40, deadline=None)
 def test_what_is_won_is_lost_and_ranks_follow_points(kind, entrants, seed):
-    event = play(Event(spec_of(entrants, format=kind, **({"rounds": 3} if kind == "swiss" else {}))), by_lot(seed))
+    event = play(Tournament(spec_of(entrants, format=kind, **({"rounds": 3} if kind == "swiss" else {}))), by_lot(seed))
     lines = standings(event)
     assert sum(line.score for line in lines) == len(event.results)
     assert sum(line.wins for line in lines) == sum(line.losses for line in lines)

@@ -25,7 +25,7 @@ _BYE = -1
 
 
 @dataclass(slots=True)
-class _Table:
+class _ScoreGroups:
     """How the entrants stand before a round."""
 
     names: list[str]
@@ -36,7 +36,7 @@ class _Table:
 
 def plan_swiss(spec: Spec, games: Mapping[Key, GameResult], withdrawn: Mapping[str, int]) -> Plan:
     """The rounds that follow from complete ones; a round is paired when the one before it is complete."""
-    table = _Table(seeded(spec), dict.fromkeys(spec.names, 0.0))
+    table = _ScoreGroups(seeded(spec), dict.fromkeys(spec.names, 0.0))
     pairs: list[Pair] = []
     byes: list[Bye] = []
     for around in range(spec.rounds or 0):
@@ -54,7 +54,7 @@ def _pairs(spec: Spec, around: int, couples: Sequence[tuple[str, str]], start: i
     return list(numbered(spec, meets, start))
 
 
-def _score(table: _Table, drawn: list[Pair], resting: Sequence[str], games: Mapping[Key, GameResult]) -> bool:
+def _score(table: _ScoreGroups, drawn: list[Pair], resting: Sequence[str], games: Mapping[Key, GameResult]) -> bool:
     """Put a round into the table; False if it is not complete, and then nothing is counted."""
     played = meetings(drawn, games)
     if not all(meeting.complete for meeting in played):
@@ -69,7 +69,7 @@ def _score(table: _Table, drawn: list[Pair], resting: Sequence[str], games: Mapp
     return True
 
 
-def pair_round(table: _Table, names: Sequence[str]) -> tuple[list[tuple[str, str]], list[str]]:
+def pair_round(table: _ScoreGroups, names: Sequence[str]) -> tuple[list[tuple[str, str]], list[str]]:
     """The couples of a round, the best placed first, and who rests (one, if the number is odd)."""
     ranked = sorted(names, key=lambda name: -table.points[name])  # stable: equal points keep the order of seeds
     partner = _matching(table, ranked)
@@ -77,7 +77,7 @@ def pair_round(table: _Table, names: Sequence[str]) -> tuple[list[tuple[str, str
     return couples, [ranked[i] for i, j in partner.items() if j == _BYE]
 
 
-def _matching(table: _Table, ranked: Sequence[str]) -> dict[int, int]:
+def _matching(table: _ScoreGroups, ranked: Sequence[str]) -> dict[int, int]:
     """The cheapest perfect matching of the places in ``ranked``, and the bye if their number is odd."""
     places = [*range(len(ranked)), *([_BYE] if len(ranked) % 2 else [])]
     folds = _folds(table, ranked)
@@ -100,20 +100,20 @@ def _cheapest(edges: tuple[tuple[int, int, int], ...]) -> frozenset[tuple[int, i
     return frozenset(networkx.max_weight_matching(graph, maxcardinality=True))
 
 
-def _folds(table: _Table, ranked: Sequence[str]) -> list[int]:
+def _folds(table: _ScoreGroups, ranked: Sequence[str]) -> list[int]:
     """For each place, how far down its opponent should be: half of its score group."""
     sizes = Counter(table.points[name] for name in ranked)
     return [max(1, sizes[table.points[name]] // 2) for name in ranked]
 
 
-def _cost(table: _Table, ranked: Sequence[str], folds: list[int], i: int, j: int) -> int:
+def _cost(table: _ScoreGroups, ranked: Sequence[str], folds: list[int], i: int, j: int) -> int:
     """What pairing the places i < j costs, in integers, so that nothing is lost to rounding."""
     one, other = ranked[i], ranked[j]
     apart = round(2 * abs(table.points[one] - table.points[other])) ** 2
     return _weigh(len(ranked), table.met[frozenset((one, other))], apart, abs(j - i - folds[i]))
 
 
-def _bye_cost(table: _Table, ranked: Sequence[str], i: int) -> int:
+def _bye_cost(table: _ScoreGroups, ranked: Sequence[str], i: int) -> int:
     """What it costs to let place i rest."""
     apart = round(2 * (table.points[ranked[i]] - table.points[ranked[-1]])) ** 2
     return _weigh(len(ranked), table.rested[ranked[i]], apart, len(ranked) - 1 - i)

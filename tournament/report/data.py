@@ -12,7 +12,7 @@ from tournament.results import GameResult
 from tournament.scores import Key
 from tournament.standings import standings
 from tournament.statistics import ladder, rate, score_of
-from tournament.tournament import Event
+from tournament.tournament import Tournament
 
 FORMAT = "pooliad-report/1"
 MOST_LEVELS = 6
@@ -21,7 +21,7 @@ MOST_LEVELS = 6
 Data = dict[str, Any]
 
 
-def event_report(event: Event, luck: Mapping[Key, GameLuck] | None = None, *, rated: bool = True) -> Data:
+def event_report(event: Tournament, luck: Mapping[Key, GameLuck] | None = None, *, rated: bool = True) -> Data:
     """The report of an event, finished or not; its terms say whether its dice were foreseeable.
 
     Args:
@@ -179,7 +179,7 @@ def _mean(values: Sequence[float]) -> float:
     return sum(values) / len(values)
 
 
-def _in_order(event: Event) -> Iterable[GameResult]:
+def _in_order(event: Tournament) -> Iterable[GameResult]:
     """All results in the order of the plan, the attempts of a game one after the other."""
     number = {pair.id: pair.number for pair in event.plan.pairs}
     return sorted(event.results, key=lambda one: (number[one.pair], one.leg, one.attempt))

@@ -4,7 +4,7 @@ from tournament.statistics.bradley_terry import Rating, Ratings, rate
 from tournament.statistics.elo import MOST_ELO, elo_of, expected_score
 from tournament.statistics.ladder import Rung, ladder
 from tournament.statistics.score import Score, is_contradicted, score_interval, score_of, score_of_cells, superiority
-from tournament.statistics.sprt import SprtState, Verdict, log_likelihood_ratio, sprt
+from tournament.statistics.sprt import SprtDecision, SprtState, log_likelihood_ratio, sprt
 
 __all__ = [
     "MOST_ELO",
@@ -12,8 +12,8 @@ __all__ = [
     "Ratings",
     "Rung",
     "Score",
+    "SprtDecision",
     "SprtState",
-    "Verdict",
     "elo_of",
     "expected_score",
     "is_contradicted",

@@ -16,7 +16,7 @@ from tournament.statistics.elo import expected_score
 from tournament.statistics.likelihood import CELL_SCORES, profile, regularised
 
 
-class Verdict(StrEnum):
+class SprtDecision(StrEnum):
     """What a test says."""
 
     OPEN = "open"
@@ -36,7 +36,7 @@ class SprtState:
         pairs: how many it has seen; after a decision it looks at no more.
     """
 
-    verdict: Verdict
+    verdict: SprtDecision
     llr: float
     bounds: tuple[float, float]
     pairs: int
@@ -61,8 +61,8 @@ def sprt(terms: SprtTerms, cells: Iterable[int]) -> SprtState:
         counts[cell] += 1
         ratio = log_likelihood_ratio(counts, terms.elo0, terms.elo1)
         if not lower < ratio < upper:
-            return SprtState(Verdict.ELO1 if ratio >= upper else Verdict.ELO0, ratio, (lower, upper), seen)
-    return SprtState(Verdict.OPEN, ratio, (lower, upper), seen)
+            return SprtState(SprtDecision.ELO1 if ratio >= upper else SprtDecision.ELO0, ratio, (lower, upper), seen)
+    return SprtState(SprtDecision.OPEN, ratio, (lower, upper), seen)
 
 
 def log_likelihood_ratio(counts: Sequence[int], elo0: float, elo1: float) -> float:

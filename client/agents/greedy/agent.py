@@ -10,7 +10,7 @@ from client.agents.chance import generator
 from client.agents.greedy import places
 from client.agents.greedy.candidates import Candidates
 from client.agents.greedy.judge import Judge
-from client.agents.greedy.planned_action import Plan
+from client.agents.greedy.planned_action import PlannedAction
 from client.agents.greedy.worth import worth_of_passing
 from client.geometry import Point
 from client.simulator import Simulator
@@ -29,7 +29,7 @@ CONTENT = 0.1
 BREAKING, RECEIVING = 0.5, 0.45
 """What a new rack is worth to the player who breaks it, and to the other."""
 
-Judged = tuple[Plan, float]
+Judged = tuple[PlannedAction, float]
 """A plan and what it is worth."""
 
 
@@ -103,13 +103,13 @@ class _Turn:
         other = self._best_of(self._other_plans())
         return other if best is None or other[1] > best[1] else best
 
-    def _refined(self, plan: Plan, value: float) -> Judged:
+    def _refined(self, plan: PlannedAction, value: float) -> Judged:
         """A plan a little faster or slower, higher or lower, to the left or right, if that is better."""
         near = self._candidates.near(plan)
         better = self._best_of(near) if near else (plan, value)
         return better if better[1] > value else (plan, value)
 
-    def _best_of(self, plans: Sequence[Plan]) -> Judged:
+    def _best_of(self, plans: Sequence[PlannedAction]) -> Judged:
         """The best of the plans under noise: all are screened, the finalists judged with care."""
         rough = self._judge.worths(plans, SCREENING)
         finalists = [plans[index] for index in np.argsort(-rough, kind="stable")[:FINALISTS]]
@@ -117,7 +117,7 @@ class _Turn:
         best = int(np.argmax(worths))
         return finalists[best], float(worths[best])
 
-    def _pot_plans(self) -> list[Plan]:
+    def _pot_plans(self) -> list[PlannedAction]:
         """Open pots from where the cue ball lies, or from where it could be put."""
         balls = self._rules.legal(self._game).callable
         if self._game.cue_ball_in_hand is None:
@@ -132,7 +132,7 @@ class _Turn:
         found = places.straight(self._table, state, balls, area)
         return found[:PLACES] or places.scattered(self._table, state, area)
 
-    def _other_plans(self) -> list[Plan]:
+    def _other_plans(self) -> list[PlannedAction]:
         """Strokes in all directions: safeties, kicks, and whatever ball such a stroke happens to make."""
         area, state = self._game.cue_ball_in_hand, self._game.state
         if area is None:
@@ -140,21 +140,21 @@ class _Turn:
         place = places.roomy(self._table, state, area)
         return self._called(self._candidates.fan(state.moved(0, place), place))
 
-    def _called(self, plans: Sequence[Plan]) -> list[Plan]:
+    def _called(self, plans: Sequence[PlannedAction]) -> list[PlannedAction]:
         """The plans, those that make a ball of their own calling that ball."""
         balls = self._rules.legal(self._game).callable
         lucky = self._judge.pocketed(plans, balls)
         return [_calling(plan, call) for plan, call in zip(plans, lucky, strict=True)]
 
-    def _break_plans(self) -> list[Plan]:
+    def _break_plans(self) -> list[PlannedAction]:
         """Breaks from just behind the head string."""
         state = self._game.state
         spots = places.for_break(self._table, state)
         return [plan for place in spots for plan in self._candidates.breaks(state.moved(0, place), place)]
 
 
-def _calling(plan: Plan, call: Call | None) -> Plan:
+def _calling(plan: PlannedAction, call: Call | None) -> PlannedAction:
     """The plan with another call, when there is one."""
     if call is None:
         return plan
-    return Plan(dataclasses.replace(plan.action, call=call), plan.before)
+    return PlannedAction(dataclasses.replace(plan.action, call=call), plan.before)

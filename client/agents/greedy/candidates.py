@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Literal
 
-from client.agents.greedy.planned_action import Plan
+from client.agents.greedy.planned_action import PlannedAction
 from client.geometry import Point, Pot, azimuth, pots
 from physics import Shot, Table, TableState, min_elevation
 from referee import SAFETY, Action, Call
@@ -39,24 +39,24 @@ class Candidates:
         self._table = table
         self._slack = SIGMAS_OFF * noise
 
-    def pots(self, before: TableState, place: Point | None, balls: Sequence[int], most: int) -> list[Plan]:
+    def pots(self, before: TableState, place: Point | None, balls: Sequence[int], most: int) -> list[PlannedAction]:
         """The `most` easiest open pots of `balls`, each at several speeds."""
         easiest = pots(self._table, before, balls)[:most]
         return [plan for pot in easiest for plan in self._pot(before, place, pot)]
 
-    def fan(self, before: TableState, place: Point | None) -> list[Plan]:
+    def fan(self, before: TableState, place: Point | None) -> list[PlannedAction]:
         """Strokes in all directions, called as safeties."""
         directions = (360.0 * index / FAN_DIRECTIONS for index in range(FAN_DIRECTIONS))
         return [plan for phi in directions for plan in self._aimed(before, place, phi, FAN_SPEEDS, SAFETY)]
 
-    def breaks(self, before: TableState, place: Point) -> list[Plan]:
+    def breaks(self, before: TableState, place: Point) -> list[PlannedAction]:
         """Full strokes at the apex ball, and a little beside it."""
         x, y = self._table.foot_spot
         speeds = tuple(share * self._table.v_max for share in BREAK_SPEEDS)
         aims = (azimuth(place, (x + 1e-3 * offset, y)) for offset in BREAK_OFFSETS)
         return [plan for phi in aims for plan in self._aimed(before, place, phi, speeds, None)]
 
-    def near(self, plan: Plan) -> list[Plan]:
+    def near(self, plan: PlannedAction) -> list[PlannedAction]:
         """The plan's neighbours in speed, tip height and direction."""
         shot, call, place = plan.action.shot, plan.action.call, plan.action.cue_ball
         if shot is None:
@@ -69,7 +69,7 @@ class Candidates:
             for each in self._aimed(plan.before, place, shot.phi + turn, speeds, call, shot.b + b)
         ]
 
-    def _pot(self, before: TableState, place: Point | None, pot: Pot) -> list[Plan]:
+    def _pot(self, before: TableState, place: Point | None, pot: Pot) -> list[PlannedAction]:
         """One pot at several speeds and tip heights."""
         call = Call(pot.ball, pot.pocket)
         return [plan for b in TIPS for plan in self._aimed(before, place, pot.phi, POT_SPEEDS, call, b)]
@@ -82,12 +82,14 @@ class Candidates:
         speeds: Iterable[float],
         call: Call | Literal["safety"] | None,
         b: float = 0.0,
-    ) -> list[Plan]:
+    ) -> list[PlannedAction]:
         """Plans in one direction; none where the cue is blocked at every elevation."""
         theta = self._elevation(before, phi, b)
         if math.isnan(theta):
             return []
-        return [Plan(Action(shot=Shot(v, phi, theta, 0.0, b), call=call, cue_ball=place), before) for v in speeds]
+        return [
+            PlannedAction(Action(shot=Shot(v, phi, theta, 0.0, b), call=call, cue_ball=place), before) for v in speeds
+        ]
 
     def _elevation(self, before: TableState, phi: float, b: float) -> float:
         """The least elevation (deg) at which the cue stays free under noise; NaN when there is none."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from client.agents.greedy.planned_action import Plan
+from client.agents.greedy.planned_action import PlannedAction
 from client.agents.greedy.worth import worth
 from client.simulator import Simulator
 from physics.constants import THETA_MAX, V_MAX
@@ -40,7 +40,7 @@ class Judge:
         self._spread = noise * np.array([SIGMAS[name] for name in FIELDS])
         self._chance = chance
 
-    def worths(self, plans: Sequence[Plan], variants: int) -> NDArray[np.float64]:
+    def worths(self, plans: Sequence[PlannedAction], variants: int) -> NDArray[np.float64]:
         """Mean worth of each plan over so many noisy variants, (n,); without noise there is but one."""
         copies = min(variants if self._spread.any() else 1, self._affordable() // len(plans))
         if copies == 0:
@@ -54,7 +54,7 @@ class Judge:
         mean: NDArray[np.float64] = np.reshape(each, (len(plans), copies)).mean(axis=1)
         return mean
 
-    def pocketed(self, plans: Sequence[Plan], balls: Sequence[int]) -> list[Call | None]:
+    def pocketed(self, plans: Sequence[PlannedAction], balls: Sequence[int]) -> list[Call | None]:
         """For each plan the first of `balls` that it sends into a pocket as intended, as a call."""
         if not balls or len(plans) > self._affordable():
             return [None] * len(plans)
@@ -79,7 +79,7 @@ class Judge:
         return noisy
 
 
-def _columns(plan: Plan) -> tuple[float, ...]:
+def _columns(plan: PlannedAction) -> tuple[float, ...]:
     """A plan's shot as a row of a batch."""
     shot = plan.action.shot
     if shot is None:

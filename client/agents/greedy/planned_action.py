@@ -7,7 +7,7 @@ from referee import Action
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class PlannedAction:
     """An action, and the table it would be played on: the cue ball placed."""
 
     action: Action

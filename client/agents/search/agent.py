@@ -11,7 +11,7 @@ from client.agents.search.engine import geometry
 from client.agents.search.evaluate import Evaluator
 from client.agents.search.options import Options
 from client.agents.search.sight import Sight
-from client.agents.search.thinking import Thought, Turn
+from client.agents.search.thinking import Thought, TurnSearch
 from client.agents.search.value import Values
 from protocol import View
 from referee import Action, Decision, EightBall, Game, Phase
@@ -69,11 +69,11 @@ class SearchAgent(Agent):
         seconds, shots = allowance(options, left, self.simulator.remaining)
         return Budget(self._pace, shots // parts, seconds / parts, clock)
 
-    def _turn(self, game: Game, budget: Budget) -> Turn:
+    def _turn(self, game: Game, budget: Budget) -> TurnSearch:
         evaluator = Evaluator(
             self._rules.table, self._values, self._noise, self._chance, self.simulator.simulate_batch, budget
         )
-        return Turn(self._rules, game, evaluator, self._options)
+        return TurnSearch(self._rules, game, evaluator, self._options)
 
     def _break(self, game: Game) -> Action:
         """The studied break."""

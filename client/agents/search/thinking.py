@@ -74,7 +74,7 @@ class Finalists:
         return Finalists(self.shots.joined(other.shots), np.concatenate((self.worths, other.worths)))
 
 
-class Turn:
+class TurnSearch:
     """Everything that depends on how the game stands."""
 
     def __init__(self, rules: EightBall, game: Game, evaluator: Evaluator, options: Options) -> None:

@@ -80,7 +80,7 @@ def me(context: Context, caller: Caller) -> AgentView:
 
 
 def listing(
-    context: Context, house: bool | None, search: str | None, after: paging.Place | None, limit: int
+    context: Context, house: bool | None, search: str | None, after: paging.PagePosition | None, limit: int
 ) -> AgentList:
     """Agents in order of registration, those after a place.
 

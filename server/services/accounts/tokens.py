@@ -51,7 +51,7 @@ def revoke(context: Context, token_id: str, caller: Caller) -> None:
         writing.connection.execute(update(tokens).where(tokens.c.id == token_id).values(revoked_at=now))
 
 
-def listing(context: Context, caller: Caller, after: paging.Place | None, limit: int) -> TokenList:
+def listing(context: Context, caller: Caller, after: paging.PagePosition | None, limit: int) -> TokenList:
     """The tokens of everybody but agents, in the order they were made."""
     caller.require_admin()
     staff = select(tokens).where(tokens.c.agent_id.is_(None))

@@ -76,7 +76,7 @@ def listing(
     agent_id: str | None,
     status: str | None,
     search: str | None,
-    after: paging.Place | None,
+    after: paging.PagePosition | None,
     limit: int,
 ) -> MatchList:
     """Matches, the newest first, when asked for of one agent, of one status, with a player's name; raises `Invalid`."""

@@ -6,17 +6,17 @@ from typing import Final
 from sqlalchemy import Connection
 
 from server.services.play.live_game import LiveGame, find_row, read
-from server.services.runtime.cache import Latest
+from server.services.runtime.cache import VersionedCache
 
 MOST_KEPT: Final = 1024
 """Games, about 20 kB each."""
 
 
-class SeenGames:
+class GameCache:
     """The balls, the score and the terms change with a game's version alone; its clocks are read every time."""
 
     def __init__(self) -> None:
-        self._latest = Latest[LiveGame](MOST_KEPT, lambda live: live.row.version)
+        self._latest = VersionedCache[LiveGame](MOST_KEPT, lambda live: live.row.version)
 
     def find(self, connection: Connection, game_id: str) -> LiveGame:
         """The game as it is committed (never from a transaction that has written); raises `NotFound`."""

@@ -78,7 +78,7 @@ class TurnEnd:
     move: int | None = None
 
 
-class Moved(Overtaken):
+class MoveConflict(Overtaken):
     """The game, or its running clock, is not any more as it was read."""
 
 
@@ -195,7 +195,7 @@ def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, turn: dic
     } | turn
     seen = {f"seen_{name}": getattr(live.row, name) for name in _COMPARED}
     if writing.connection.execute(_IF_UNCHANGED, values | seen).rowcount != 1:
-        raise Moved
+        raise MoveConflict
     row = {"game_id": live.id, "seat": seat, "move": end.move, "created_at": writing.now}
     parts = {"measured": charge.measured_ns, "lag": charge.lag_ns, "grace": charge.grace_ns}
     writing.connection.execute(_CHARGE, row | parts)

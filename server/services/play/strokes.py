@@ -69,7 +69,7 @@ def _act(
     """Again from the beginning as long as somebody else changes the game meanwhile: they got on with it."""
     context.pulse.require(context.time.now())
     while True:
-        with contextlib.suppress(games.Moved):
+        with contextlib.suppress(games.MoveConflict):
             return _tried(context, game_id, move, read, may_be_long)
 
 

@@ -8,7 +8,7 @@ from typing import Generic, TypeVar
 V = TypeVar("V")
 
 
-class Latest(Generic[V]):
+class VersionedCache(Generic[V]):
     """For all threads; the values least recently looked for are forgotten first.
 
     Args:

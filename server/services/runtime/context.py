@@ -15,14 +15,14 @@ from referee.play import LagAllowance, nanoseconds
 from server import failpoints
 from server.failpoints import Failpoint
 from server.ops.metrics import Metrics
-from server.security.limits import Limits
+from server.security.limits import RequestLimits
 from server.services.physics.pool import PhysicsPool
-from server.services.play.game_cache import SeenGames
+from server.services.play.game_cache import GameCache
 from server.services.play.long_strokes import LongStrokes
-from server.services.runtime.heartbeat_health import Pulse
+from server.services.runtime.heartbeat_health import HeartbeatHealth
 from server.services.runtime.time import TimeSource
 from server.services.runtime.wakeups import Wakeups
-from server.services.tournaments.tournament_cache import Course, Courses
+from server.services.tournaments.tournament_cache import TournamentCache, TournamentState
 from server.services.watch.presence import Presence
 from server.settings import Settings
 from server.store.database import Database
@@ -58,19 +58,19 @@ class Context:
     self_test: list[SelfTest] = field(default_factory=list)
     metrics: Metrics = field(default_factory=Metrics)
     aside: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(THREADS_ASIDE))
-    pulse: Pulse = field(init=False)
-    seen: SeenGames = field(default_factory=SeenGames)
-    limits: Limits = field(init=False)
+    pulse: HeartbeatHealth = field(init=False)
+    seen: GameCache = field(default_factory=GameCache)
+    limits: RequestLimits = field(init=False)
     physics: PhysicsPool = field(init=False)
     long_strokes: LongStrokes = field(default_factory=LongStrokes)
     in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
-    courses: Courses = field(default_factory=Courses)
+    courses: TournamentCache = field(default_factory=TournamentCache)
     failpoint: Failpoint = field(default_factory=lambda: failpoints.parse(""))
     match_over: Callable[["Writing", str], None] = lambda writing, match_id: None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "pulse", Pulse(nanoseconds(self.settings.heartbeat_period)))
-        object.__setattr__(self, "limits", Limits.of(self.settings, self.time))
+        object.__setattr__(self, "pulse", HeartbeatHealth(nanoseconds(self.settings.heartbeat_period)))
+        object.__setattr__(self, "limits", RequestLimits.of(self.settings, self.time))
         object.__setattr__(self, "physics", PhysicsPool(self.settings.physics_threads))
 
     async def run_aside(self, work: Callable[[], T]) -> T:
@@ -125,4 +125,4 @@ class Writing:
     context: Context
     now: int
     woken: set[str] = field(default_factory=set, compare=False)
-    courses: dict[str, Course] = field(default_factory=dict, compare=False)
+    courses: dict[str, TournamentState] = field(default_factory=dict, compare=False)

@@ -9,7 +9,7 @@ MISSED_BEATS: Final = 3
 send it again. For itself its database is gone."""
 
 
-class Pulse:
+class HeartbeatHealth:
     """The last heartbeat that was stored.
 
     Args:

@@ -17,11 +17,11 @@ from server.services.matches.player_seeds import begin_or_wait
 from server.services.matches.secrecy import EVENT_OPEN, ON_THE_TABLE
 from server.services.play import history
 from server.services.runtime.context import Context, Writing
-from server.services.tournaments.tournament_cache import Course
+from server.services.tournaments.tournament_cache import TournamentState
 from server.store.locks import only_one
 from server.store.rows import GameRow
 from server.store.tables import games, matches, tournament_entries, tournament_games, tournaments
-from tournament import Due, Event, Spec
+from tournament import Due, Spec, Tournament
 from tournament.from_record import called_off, result_of
 from tournament.ledger import Act, Ledger
 from tournament.seeds import match_seed
@@ -50,14 +50,14 @@ def hold(connection: Connection, tournament_id: str) -> Row[Any]:
     return find(connection, tournament_id)
 
 
-def course(context: Context, connection: Connection, row: Row[Any]) -> Course:
+def course(context: Context, connection: Connection, row: Row[Any]) -> TournamentState:
     """How the event stands, for who only reads."""
     found = _course(context.courses.get(row.id), connection, row)
     context.courses.keep({row.id: found})
     return found
 
 
-def course_here(writing: Writing, row: Row[Any]) -> Course:
+def course_here(writing: Writing, row: Row[Any]) -> TournamentState:
     """How the event stands in this transaction, which holds it."""
     known = writing.courses.get(row.id) or writing.context.courses.get(row.id)
     writing.courses[row.id] = _course(known, writing.connection, row)
@@ -80,7 +80,7 @@ def note(writing: Writing, row: Row[Any], kind: str, by: str, fields: dict[str, 
     values = {"tournament_id": row.id, "kind": kind, "by": by, "fields": fields, "created_at": writing.now}
     made = writing.connection.execute(insert(tournament_entries).values(values)).inserted_primary_key
     assert made is not None
-    writing.courses[row.id] = Course(made[0], before.ledger.after([Act(kind, fields)]))
+    writing.courses[row.id] = TournamentState(made[0], before.ledger.after([Act(kind, fields)]))
 
 
 def go_on(writing: Writing, row: Row[Any]) -> Row[Any]:
@@ -171,15 +171,15 @@ def _begin(writing: Writing, row: Row[Any], spec: Spec, due: Due) -> None:
     writing.woken.update((first, second))
 
 
-def _course(known: Course | None, connection: Connection, row: Row[Any]) -> Course:
+def _course(known: TournamentState | None, connection: Connection, row: Row[Any]) -> TournamentState:
     """What is known, and the entries since."""
     since = 0 if known is None else known.sequence
-    ledger = Ledger(Event(Spec.from_dict(row.terms))) if known is None else known.ledger
+    ledger = Ledger(Tournament(Spec.from_dict(row.terms))) if known is None else known.ledger
     later = _entries(connection, row.id, tournament_entries.c.sequence > since)
     if known is not None and not later:
         return known
     sequence = later[-1].sequence if later else since
-    return Course(sequence, ledger.after(Act(each.kind, each.fields) for each in later))
+    return TournamentState(sequence, ledger.after(Act(each.kind, each.fields) for each in later))
 
 
 def _entries(

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
-from server.services.runtime.cache import Latest
+from server.services.runtime.cache import VersionedCache
 from tournament import Standing, standings
 from tournament.ledger import Ledger
 from tournament.statistics import Rating, rate
@@ -19,7 +19,7 @@ MOST_KEPT: Final = 64
 
 
 @dataclass(frozen=True)
-class Course:
+class TournamentState:
     """An event up to one of its entries.
 
     Attributes:
@@ -41,7 +41,7 @@ class Course:
         return rate(event.counted, event.spec.names).table if event.counted else ()
 
 
-class Courses(Latest[Course]):
+class TournamentCache(VersionedCache[TournamentState]):
     """The courses of the events that were asked for last."""
 
     def __init__(self) -> None:

@@ -24,7 +24,7 @@ from server.services.matches.secrecy import is_event_over
 from server.services.runtime.context import Context
 from server.services.runtime.time import date_time
 from server.services.tournaments import progress
-from server.services.tournaments.tournament_cache import Course
+from server.services.tournaments.tournament_cache import TournamentState
 from server.store.tables import tournament_games
 from tournament import GameResult, Pair
 from tournament.ledger import Ledger
@@ -38,7 +38,7 @@ def view(context: Context, connection: Connection, row: Row[Any]) -> TournamentV
     return view_of(connection, row, progress.course(context, connection, row))
 
 
-def view_of(connection: Connection, row: Row[Any], course: Course) -> TournamentView:
+def view_of(connection: Connection, row: Row[Any], course: TournamentState) -> TournamentView:
     """The same when it is known how the event stands."""
     ledger = course.ledger
     spec, over = ledger.event.spec, is_event_over(connection, row)

@@ -94,7 +94,7 @@ def entries(context: Context, tournament_id: str, caller: Caller, after: int, li
 
 
 def listing(
-    context: Context, status: str | None, search: str | None, after: paging.Place | None, limit: int
+    context: Context, status: str | None, search: str | None, after: paging.PagePosition | None, limit: int
 ) -> TournamentList:
     """Events, the newest first, of one status or with a name when asked for; raises `Invalid`."""
     query = select(tournaments)

@@ -19,7 +19,7 @@ RESULT: Final = "result"
 
 
 @dataclass(frozen=True)
-class News:
+class SpectatorEvent:
     """One event about one game, encoded once for all who watch.
 
     Attributes:
@@ -55,14 +55,14 @@ class Marks(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class SpectatorState:
     """What the spectators of a game know already: its marks, and its strokes up to a sequence."""
 
     marks: Marks
     sequence: int
 
 
-def opening(context: Context, game_id: str, after: int | None) -> tuple[list[News], Standing]:
+def opening(context: Context, game_id: str, after: int | None) -> tuple[list[SpectatorEvent], SpectatorState]:
     """How the game stands for somebody who begins to watch; raises `NotFound`.
 
     Args:
@@ -77,17 +77,23 @@ def opening(context: Context, game_id: str, after: int | None) -> tuple[list[New
         first = GameAnswer(
             **summary(live.row, live.fixture.withheld), view=live.view(connection, None, context.time.now())
         )
-        news = [News(game_id, "game", first.model_dump_json()), *told, *_rest(context, connection, live, standing)]
+        news = [
+            SpectatorEvent(game_id, "game", first.model_dump_json()),
+            *told,
+            *_rest(context, connection, live, standing),
+        ]
     return news, standing
 
 
-def since(context: Context, known: Mapping[str, Standing]) -> tuple[list[News], dict[str, Standing]]:
+def since(
+    context: Context, known: Mapping[str, SpectatorState]
+) -> tuple[list[SpectatorEvent], dict[str, SpectatorState]]:
     """The news about several games since they stood as known, and how those stand now that have any.
 
     One query when nothing has happened, however many games there are.
     """
-    news: list[News] = []
-    standings: dict[str, Standing] = {}
+    news: list[SpectatorEvent] = []
+    standings: dict[str, SpectatorState] = {}
     with context.database.reading() as connection:
         for game_id in _moved(context, connection, known):
             live, before = find(connection, game_id), known[game_id]
@@ -96,7 +102,7 @@ def since(context: Context, known: Mapping[str, Standing]) -> tuple[list[News], 
     return news, standings
 
 
-def _moved(context: Context, connection: Connection, known: Mapping[str, Standing]) -> list[str]:
+def _moved(context: Context, connection: Connection, known: Mapping[str, SpectatorState]) -> list[str]:
     """The games that stand otherwise than known."""
     columns: Select[Any] = select(
         *(games.c.id, games.c.version, games.c.mover, games.c.delivered, games.c.clock_from),
@@ -108,18 +114,22 @@ def _moved(context: Context, connection: Connection, known: Mapping[str, Standin
 
 
 def _rest(
-    context: Context, connection: Connection, live: LiveGame, after: Standing, before: Standing | None = None
-) -> Iterator[News]:
+    context: Context,
+    connection: Connection,
+    live: LiveGame,
+    after: SpectatorState,
+    before: SpectatorState | None = None,
+) -> Iterator[SpectatorEvent]:
     """Clocks and players, where they differ from before; the result."""
     if before is None or before.marks[:-1] != after.marks[:-1]:
         turn = live.game.turn if live.is_running else None
         clocks = StreamClocks(version=live.row.version, turn=turn, clocks=live.clock_views(context.time.now()))
-        yield News(live.id, "clocks", clocks.model_dump_json())
+        yield SpectatorEvent(live.id, "clocks", clocks.model_dump_json())
     if live.is_running and (before is None or before.marks.connected != after.marks.connected):
         connections = StreamConnections(connected=after.marks.connected)
-        yield News(live.id, "connections", connections.model_dump_json())
+        yield SpectatorEvent(live.id, "connections", connections.model_dump_json())
     if not live.is_running:
-        yield News(live.id, RESULT, _result(connection, live).model_dump_json())
+        yield SpectatorEvent(live.id, RESULT, _result(connection, live).model_dump_json())
 
 
 def _result(connection: Connection, live: LiveGame) -> StreamResult:
@@ -129,16 +139,16 @@ def _result(connection: Connection, live: LiveGame) -> StreamResult:
     return StreamResult(**kept, score=score_of(connection, live.match.id), record=f"/v1/games/{live.id}/record")
 
 
-def _strokes(connection: Connection, game_id: str, after: int) -> Iterator[News]:
+def _strokes(connection: Connection, game_id: str, after: int) -> Iterator[SpectatorEvent]:
     columns = select(moves.c.sequence, moves.c.line, moves.c.stroke["stroke"].as_integer().label("index"))
     ours = columns.where(moves.c.game_id == game_id, moves.c.sequence > after).order_by(moves.c.sequence)
     for row in connection.execute(ours):
-        yield News(game_id, "decision" if row.index is None else "stroke", row.line, row.sequence)
+        yield SpectatorEvent(game_id, "decision" if row.index is None else "stroke", row.line, row.sequence)
 
 
-def _standing(context: Context, connection: Connection, live: LiveGame) -> Standing:
+def _standing(context: Context, connection: Connection, live: LiveGame) -> SpectatorState:
     last = select(func.max(moves.c.sequence)).where(moves.c.game_id == live.id)
-    return Standing(_marks(_here(context, connection), live.row, live.agents), connection.scalar(last) or 0)
+    return SpectatorState(_marks(_here(context, connection), live.row, live.agents), connection.scalar(last) or 0)
 
 
 def _here(context: Context, connection: Connection) -> frozenset[str]:

@@ -15,7 +15,7 @@ from starlette.concurrency import run_in_threadpool
 from server.errors import Unavailable
 from server.services.runtime.context import Context
 from server.services.runtime.wakeups import EVERYBODY
-from server.services.watch.spectator_events import RESULT, News, Standing, opening, since
+from server.services.watch.spectator_events import RESULT, SpectatorEvent, SpectatorState, opening, since
 
 log = logging.getLogger("pooliad.server.spectators")
 
@@ -37,7 +37,7 @@ class Spectator:
         self._several = several
         self._queue: asyncio.Queue[bytes | None] = asyncio.Queue(BACKLOG)
 
-    def encoded(self, news: News) -> bytes:
+    def encoded(self, news: SpectatorEvent) -> bytes:
         """The event as this spectator reads it; nothing for a stroke that was told before."""
         if news.sequence is not None:
             if news.sequence <= self._after[news.game]:
@@ -45,14 +45,14 @@ class Spectator:
             self._after[news.game] = news.sequence
         return news.among_others if self._several else news.alone
 
-    def tell(self, news: News) -> None:
+    def tell(self, news: SpectatorEvent) -> None:
         """Queue an event; the result of an only game is the last."""
         if event := self.encoded(news):
             self._put(event)
         if self.is_last(news):
             self._put(None)
 
-    def is_last(self, news: News) -> bool:
+    def is_last(self, news: SpectatorEvent) -> bool:
         """Whether the stream ends with this event."""
         return news.kind == RESULT and not self._several
 
@@ -80,7 +80,7 @@ class Spectators:
 
     def __init__(self, context: Context) -> None:
         self._context = context
-        self._known: dict[str, Standing] = {}
+        self._known: dict[str, SpectatorState] = {}
         self._watching: dict[str, set[Spectator]] = {}
         self._hint = asyncio.Event()
 
@@ -113,7 +113,7 @@ class Spectators:
         return self._stream(spectator, [news for told, _ in openings.values() for news in told], standings)
 
     async def _stream(
-        self, spectator: Spectator, told: Sequence[News], standings: dict[str, Standing]
+        self, spectator: Spectator, told: Sequence[SpectatorEvent], standings: dict[str, SpectatorState]
     ) -> AsyncIterator[bytes]:
         self._join(spectator, standings)
         try:
@@ -128,7 +128,7 @@ class Spectators:
         finally:
             self._leave(spectator, standings)
 
-    def _join(self, spectator: Spectator, standings: dict[str, Standing]) -> None:
+    def _join(self, spectator: Spectator, standings: dict[str, SpectatorState]) -> None:
         """Look again from where the new spectator stands: something may have happened since it was told."""
         if self._context.wakeups.draining.is_set():
             spectator.send_home()

@@ -18,7 +18,7 @@ from client.arena.runner import Runner
 from client.arena.tasks import PairDone
 from client.arena.terms import Terms
 from referee.record import verify_record
-from tournament import Event, forfeit
+from tournament import Tournament, forfeit
 from tournament.ledger import Ledger
 
 CUP = {
@@ -77,7 +77,7 @@ def test_an_event_of_rounds_is_read_from_its_beginning_as_it_was_played(tmp_path
     assert played.event.finished
     assert {pair.round for pair in played.event.pairs} == {0, 1}
     before = len(directory.journal.path.read_bytes())
-    again = Ledger(Event(played.event.spec)).after(directory.journal.new())
+    again = Ledger(Tournament(played.event.spec)).after(directory.journal.new())
     assert again.event.counted == played.event.counted
     run(directory, Forfeiting())
     assert b'"kind": "game"' not in directory.journal.path.read_bytes()[before:]
@@ -134,7 +134,7 @@ def check_kills(tmp_path, whole, kills, executor):
     done = subprocess.run(command("resume", directory.path, "--json"), capture_output=True, text=True, check=True)
     assert json.loads(done.stdout)["state"] == "finished"
     assert files(directory) == whole[1]
-    ledger = Ledger(Event(Terms.from_dict(directory.terms()).spec)).after(directory.journal.new())
+    ledger = Ledger(Tournament(Terms.from_dict(directory.terms()).spec)).after(directory.journal.new())
     assert ledger.event.counted == whole[0].event.counted
     assert list(directory.games.glob("*.part")) == []
 

@@ -20,7 +20,7 @@ from client.arena.tasks import play_pair
 from client.arena.terms import Terms
 from referee import EndReason
 from referee.record import verify_record
-from tournament import Event
+from tournament import Tournament
 
 
 @pytest.fixture(autouse=True)
@@ -42,7 +42,7 @@ def terms_of(**values):
 
 
 def games_of(terms):
-    return [terms.game(due) for due in Event(terms.spec).due]
+    return [terms.game(due) for due in Tournament(terms.spec).due]
 
 
 def reports_into(found):
@@ -57,7 +57,7 @@ def pair_of(first, second, **values):
     """Both games of a pair between two hostings."""
     terms = terms_of(**values)
     terms = dataclasses.replace(terms, hosting={"one": first, "two": second})
-    return play_pair(terms.task(Event(terms.spec).due, None))
+    return play_pair(terms.task(Tournament(terms.spec).due, None))
 
 
 def script(tmp_path, text):

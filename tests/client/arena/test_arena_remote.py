@@ -16,7 +16,7 @@ from client.arena.terms import Terms
 from client.errors import BudgetSpent, ConnectionFailed
 from protocol import Turn, VoidRequest
 from referee.record import read_record, verify_record
-from tournament import Event, game_seeds
+from tournament import Tournament, game_seeds
 from tournament.report import event_report
 
 CUP = {
@@ -84,7 +84,7 @@ def test_an_event_whose_secrets_the_server_draws_is_kept_in_the_same_books(tmp_p
         record = read_record(path)
         assert None not in record.header["client_seeds"]
         assert record.header["noise"] == {"level": result.noise, "told": False}
-        (due,) = (due for due in Event(spec).due if (due.pair.id, due.leg) == (result.pair, result.leg))
+        (due,) = (due for due in Tournament(spec).due if (due.pair.id, due.leg) == (result.pair, result.leg))
         assert due.pair.players == result.players
         assert record.end["noise_secret"] == game_seeds(spec, due.pair, due.leg).noise.hex()
     again = RemoteRunner(directory, hall.url, hall.organiser_token).run()

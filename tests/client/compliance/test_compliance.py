@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from support.require import require
 
-from client.compliance import SITUATIONS, Checker, FaultName
+from client.compliance import SITUATIONS, Checker, FindingName
 from client.compliance.situations import Twist
 
 BAD = Path(__file__).parent / "bad_agents.py"
@@ -42,7 +42,7 @@ def checked(hall, tmp_path, command, situations):
 
 
 def test_every_fault_has_a_bad_agent():
-    assert set(WHERE) == {name.value for name in FaultName}
+    assert set(WHERE) == {name.value for name in FindingName}
 
 
 @pytest.mark.parametrize("fault", sorted(WHERE))

@@ -9,7 +9,7 @@ from client.local_game import play_game
 from referee import Action, EightBall, NoiseModel
 from referee.play import MatchSeed
 from referee.play.budget import budgets
-from referee.record import Chain, Verdict, verify_record
+from referee.record import Chain, RecordVerdict, verify_record
 
 BREAK = Action(physics.Shot(v=9.0, phi=270.0, theta=5.0), cue_ball=(0.558, 1.75))
 
@@ -62,7 +62,7 @@ def changed(record, line, **fields):
 
 def test_more_than_was_granted_is_a_difference():
     found = verify_record(changed(lines(100, (30, 20)), -2, simulated=[101, 0]))
-    assert found.verdict is Verdict.DIFFERENT
+    assert found.verdict is RecordVerdict.DIFFERENT
     assert (found.difference.field, found.difference.recorded) == ("simulated", [101, 0])
     assert "at most 100" in str(found)
 
@@ -70,7 +70,7 @@ def test_more_than_was_granted_is_a_difference():
 @pytest.mark.parametrize("counts", [None, [1], [1, -1], [1, True], [1.5, 0], "12", {"0": 1}])
 def test_counts_that_are_none_are_malformed(counts):
     found = verify_record(changed(lines(100, (30, 20)), -2, simulated=counts))
-    assert found.verdict is Verdict.MALFORMED
+    assert found.verdict is RecordVerdict.MALFORMED
     assert "simulated" in found.problem
 
 
@@ -78,9 +78,9 @@ def test_counts_that_are_none_are_malformed(counts):
     "budget", [{}, 5, {"simulations": -1, "counted": "by_driver"}, {"simulations": 5, "counted": "by_nobody"}]
 )
 def test_a_budget_that_is_none_is_malformed(budget):
-    assert verify_record(changed(lines(100, (30, 20)), 0, budget=budget)).verdict is Verdict.MALFORMED
+    assert verify_record(changed(lines(100, (30, 20)), 0, budget=budget)).verdict is RecordVerdict.MALFORMED
 
 
 def test_counts_without_a_budget_are_a_difference():
     found = verify_record(changed(lines(None, (0, 0)), -2, simulated=[1, 1]))
-    assert (found.verdict, found.difference.field) == (Verdict.DIFFERENT, "simulated")
+    assert (found.verdict, found.difference.field) == (RecordVerdict.DIFFERENT, "simulated")

@@ -21,9 +21,9 @@ from referee.record import (
     GENESIS,
     Chain,
     PublicKey,
+    RecordVerdict,
     SealState,
     SigningKey,
-    Verdict,
     canonical,
     end_entry,
     line_digest,
@@ -110,7 +110,7 @@ def test_an_unsigned_record_says_so_and_is_refused_when_a_key_is_given():
     assert plain.ok
     assert "; unsigned" in str(plain)
     asked = verify_record(lines, [KEY.public])
-    assert asked.verdict is Verdict.BAD_SIGNATURE
+    assert asked.verdict is RecordVerdict.BAD_SIGNATURE
     assert "the record is unsigned" in str(asked)
 
 
@@ -118,13 +118,13 @@ def test_a_forged_signature_is_found():
     """Somebody signs a true record with a key of their own, and names the server's."""
     forged = resealed(signed_lines(), OTHER)
     unknown = verify_record(forged, [KEY.public])
-    assert unknown.verdict is Verdict.BAD_SIGNATURE
+    assert unknown.verdict is RecordVerdict.BAD_SIGNATURE
     assert f"key {OTHER.public.id} is not among those given ({KEY.public.id})" in str(unknown)
     seal = json.loads(forged[-1]) | {"key": KEY.public.id}
     named = verify_record([*forged[:-1], canonical(seal)], [KEY.public])
-    assert named.verdict is Verdict.BAD_SIGNATURE
+    assert named.verdict is RecordVerdict.BAD_SIGNATURE
     assert f"it is not key {KEY.public.id}'s over these lines" in str(named)
-    assert verify_record(signed_lines(), []).verdict is Verdict.BAD_SIGNATURE
+    assert verify_record(signed_lines(), []).verdict is RecordVerdict.BAD_SIGNATURE
 
 
 def test_the_seal_of_another_record_fits_no_other():
@@ -136,9 +136,9 @@ def test_the_seal_of_another_record_fits_no_other():
     others.append(chain.add(signed_seal(KEY, chain.head, SIGNED_AT)))
     assert verify_record(others, [KEY.public]).ok
     moved = verify_record([*signed_lines()[:-1], others[-1]], [KEY.public])
-    assert (moved.verdict, moved.chain.line) == (Verdict.BROKEN_CHAIN, len(others))
+    assert (moved.verdict, moved.chain.line) == (RecordVerdict.BROKEN_CHAIN, len(others))
     fitted = json.loads(others[-1]) | {"previous": line_digest(signed_lines()[-2])}
-    assert verify_record([*signed_lines()[:-1], canonical(fitted)], [KEY.public]).verdict is Verdict.BAD_SIGNATURE
+    assert verify_record([*signed_lines()[:-1], canonical(fitted)], [KEY.public]).verdict is RecordVerdict.BAD_SIGNATURE
 
 
 @pytest.mark.parametrize(
@@ -150,7 +150,7 @@ def test_a_hostile_header_keeps_nobody_busy(name, value):
     objects = [json.loads(line) for line in signed_lines()]
     objects[0] |= {"games": 10**15 if name == "number" else 1, name: value}
     found = verify_record(chained(objects))
-    assert found.verdict is Verdict.MALFORMED
+    assert found.verdict is RecordVerdict.MALFORMED
     assert "line 1" in found.problem
 
 
@@ -172,11 +172,11 @@ def test_a_record_of_another_engine_says_what_it_needs_and_what_its_chain_and_si
     objects[0]["engine"] = {"version": "99.0", "digest": "f" * 64}
     whole = resealed(chained(objects), KEY)
     found = verify_record(whole, [KEY.public])
-    assert (found.verdict, found.seal.state) == (Verdict.OTHER_ENGINE, SealState.VALID)
+    assert (found.verdict, found.seal.state) == (RecordVerdict.OTHER_ENGINE, SealState.VALID)
     assert str(found).startswith("made by pooliad 99.0")
-    assert verify_record(whole, [OTHER.public]).verdict is Verdict.BAD_SIGNATURE
+    assert verify_record(whole, [OTHER.public]).verdict is RecordVerdict.BAD_SIGNATURE
     dropped = verify_record([whole[0], *whole[2:]], [KEY.public])
-    assert (dropped.verdict, dropped.chain.line) == (Verdict.BROKEN_CHAIN, 2)
+    assert (dropped.verdict, dropped.chain.line) == (RecordVerdict.BROKEN_CHAIN, 2)
     assert str(dropped).startswith("made by pooliad 99.0")
 
 
@@ -184,10 +184,10 @@ def test_names_are_pinned_by_the_chain():
     """What no replay can contradict: the chain and the signature do."""
     forged = [signed_lines()[0].replace("seat 0", "seat O"), *signed_lines()[1:]]
     found = verify_record(forged, [KEY.public])
-    assert (found.verdict, found.chain.line) == (Verdict.BROKEN_CHAIN, 2)
+    assert (found.verdict, found.chain.line) == (RecordVerdict.BROKEN_CHAIN, 2)
     assert "line 1 was changed" in str(found)
     rewritten = verify_record(chained(json.loads(line) for line in forged), [KEY.public])
-    assert rewritten.verdict is Verdict.BAD_SIGNATURE
+    assert rewritten.verdict is RecordVerdict.BAD_SIGNATURE
     assert "not verified, although 2 strokes and decisions follow" in str(rewritten)
 
 
@@ -196,7 +196,7 @@ def test_client_seeds_cannot_be_exchanged():
     objects = [json.loads(line) for line in signed_lines()]
     objects[0]["client_seeds"].reverse()
     found = verify_record(chained(objects))
-    assert found.verdict is Verdict.DIFFERENT
+    assert found.verdict is RecordVerdict.DIFFERENT
     assert (found.difference.line, found.difference.field) == (1, "start.state.1[0]")
 
 
@@ -218,7 +218,7 @@ def test_any_byte_flipped_is_found_and_its_line_named(data):
         lines.pop()
     found = verify_record(lines, [KEY.public])
     assert not found.ok
-    if found.verdict is Verdict.MALFORMED and found.chain is None:
+    if found.verdict is RecordVerdict.MALFORMED and found.chain is None:
         # a line feed that is none any more joins two lines; a byte that has become one cuts a line in two
         assert any(f"line {number}" in found.problem for number in (line + 1, line + 2, len(lines))), found.problem
     elif line + 1 < len(signed_lines()):
@@ -232,7 +232,7 @@ def test_any_byte_flipped_is_found_and_its_line_named(data):
 def test_any_other_order_is_found(order):
     assume(list(order) != sorted(order))
     found = verify_record([signed_lines()[n] for n in order], [KEY.public])
-    assert found.verdict is Verdict.MALFORMED or found.chain is not None
+    assert found.verdict is RecordVerdict.MALFORMED or found.chain is not None
     assert not found.ok
 
 
@@ -257,7 +257,7 @@ def test_lines_left_out_or_repeated_are_found(kept, twice):
 def test_a_file_has_one_form(write, change, problem):
     assert verify_record(write(signed_text()), [KEY.public]).ok
     found = verify_record(write(change(signed_text())), [KEY.public])
-    assert found.verdict is Verdict.MALFORMED
+    assert found.verdict is RecordVerdict.MALFORMED
     assert problem in found.problem
 
 
@@ -276,7 +276,7 @@ def test_a_file_has_one_form(write, change, problem):
 def test_a_seal_that_is_none_is_malformed(change):
     *before, last = signed_lines()
     found = verify_record([*before, canonical(json.loads(last) | change)])
-    assert found.verdict is Verdict.MALFORMED
+    assert found.verdict is RecordVerdict.MALFORMED
 
 
 def test_the_key_shows_in_no_log():

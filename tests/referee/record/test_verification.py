@@ -23,7 +23,7 @@ from referee.record import (
     Header,
     InvalidRecord,
     MatchTerms,
-    Verdict,
+    RecordVerdict,
     canonical,
     read_record,
     record_lines,
@@ -169,7 +169,7 @@ TAMPERINGS = [
 def test_every_lie_is_found_and_named(path, value, line, stroke, event, field):
     lines = tampered(path, value)
     verification = verify_record(lines)
-    assert verification.verdict is Verdict.DIFFERENT, str(verification)
+    assert verification.verdict is RecordVerdict.DIFFERENT, str(verification)
     difference = verification.difference
     assert difference.line == (line or len(lines) + 1 + END)
     assert verification.chain.line == path[0] % len(lines) + 2
@@ -199,7 +199,7 @@ def test_secret_and_commitment_changed_together_are_found_in_the_noise():
 
 def test_a_stroke_left_out_is_found():
     lines = [*true_lines()[:2], *true_lines()[3:]]
-    assert verify_record(lines).verdict is Verdict.DIFFERENT
+    assert verify_record(lines).verdict is RecordVerdict.DIFFERENT
 
 
 def test_a_stroke_after_the_end_is_found():
@@ -239,7 +239,7 @@ def made_by_another(change=lambda objects: None):
 
 def test_a_record_of_another_engine_that_follows_is_the_same_game_and_not_called_verified():
     found = verify_record(made_by_another())
-    assert (found.verdict, found.ok, found.needs) == (Verdict.SAME_GAME, True, OTHER)
+    assert (found.verdict, found.ok, found.needs) == (RecordVerdict.SAME_GAME, True, OTHER)
     assert found.outcome == game().outcome
     words = f"made by {OTHER}; this engine, {this_engine()}, gives the same game, bit for bit"
     assert str(found).startswith(words)
@@ -253,7 +253,7 @@ def test_a_record_of_another_engine_that_does_not_follow_says_where_it_differs()
         objects[BREAK]["events"][20]["time"] = nudge(objects[BREAK]["events"][20]["time"])
 
     found = verify_record(made_by_another(change))
-    assert (found.verdict, found.ok, found.needs) == (Verdict.OTHER_ENGINE, False, OTHER)
+    assert (found.verdict, found.ok, found.needs) == (RecordVerdict.OTHER_ENGINE, False, OTHER)
     assert (found.difference.line, found.difference.field) == (2, "events[20].time")
     assert str(found).startswith(
         f"made by {OTHER}; this engine, {this_engine()}, differs at line 2, stroke 0, event 20"
@@ -267,7 +267,7 @@ def test_naming_another_engine_does_not_hide_what_was_committed_to():
         objects[0]["engine"]["digest"] = "e" * 64
 
     found = verify_record(made_by_another(change))
-    assert found.verdict is Verdict.OTHER_ENGINE
+    assert found.verdict is RecordVerdict.OTHER_ENGINE
     assert found.difference.field == "commitment"
 
 
@@ -280,7 +280,7 @@ def test_a_record_of_another_engine_that_cannot_be_read_here_is_not_called_malfo
             objects[line].pop(name, None)
 
     found = verify_record(made_by_another(change))
-    assert (found.verdict, found.ok, found.needs) == (Verdict.OTHER_ENGINE, False, OTHER)
+    assert (found.verdict, found.ok, found.needs) == (RecordVerdict.OTHER_ENGINE, False, OTHER)
     assert "cannot read it: line" in str(found)
 
 
@@ -291,7 +291,7 @@ def test_another_version_with_the_same_engine_is_no_other_engine():
     objects[0]["engine"] = same.to_dict()
     assert verify_record(chained(objects)).difference.field == "commitment"
     objects[0]["commitment"] = replace(game().header.terms, engine=same).commitment(game().seeds, 0)
-    assert verify_record(chained(objects)).verdict is Verdict.VERIFIED
+    assert verify_record(chained(objects)).verdict is RecordVerdict.VERIFIED
 
 
 @pytest.mark.parametrize(
@@ -306,14 +306,14 @@ def test_another_version_with_the_same_engine_is_no_other_engine():
 )
 def test_what_is_no_record_is_malformed(lines, problem):
     verification = verify_record(lines)
-    assert verification.verdict is Verdict.MALFORMED
+    assert verification.verdict is RecordVerdict.MALFORMED
     assert problem in str(verification)
 
 
 def test_an_unfinished_record_is_malformed():
     for lines in (true_lines()[:-1], true_lines()[:END]):
         verification = verify_record(lines)
-        assert verification.verdict is Verdict.MALFORMED
+        assert verification.verdict is RecordVerdict.MALFORMED
         assert "must be 'end'" in str(verification)
     assert "the record ends before the game does" in str(verify_record(true_lines()[:1]))
 
@@ -327,7 +327,7 @@ def test_a_cut_line_is_named():
 def test_a_binary_file_is_malformed(tmp_path):
     path = tmp_path / "noise"
     path.write_bytes(bytes(range(256)))
-    assert verify_record(path).verdict is Verdict.MALFORMED
+    assert verify_record(path).verdict is RecordVerdict.MALFORMED
     with pytest.raises(InvalidRecord, match="UTF-8"):
         read_record(path)
 
@@ -362,7 +362,7 @@ def test_junk_anywhere_is_an_answer_and_never_an_exception(data):
     except ValueError:  # no JSON
         lines = [json.dumps(line) for line in objects]
     verification = verify_record(lines)
-    assert verification.verdict in Verdict
+    assert verification.verdict in RecordVerdict
     assert str(verification)
     assert not verification.ok or key in _BELIEVED or before == node[key]
 
@@ -446,6 +446,6 @@ def test_decisions_and_new_racks_are_part_of_the_record():
 @pytest.mark.parametrize("engine", [None, "0.1.0", [], {"version": "0.1.0"}, {"version": 1, "digest": "ab"}])
 def test_an_engine_that_is_none_is_said_in_words(engine):
     verification = verify_record(tampered((0, "engine"), engine))
-    assert verification.verdict is Verdict.MALFORMED
+    assert verification.verdict is RecordVerdict.MALFORMED
     assert "line 1, engine" in verification.problem
     assert "strings version and digest" in verification.problem

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 import pytest
 from support.events import by_lot, play, result_of
 
-from tournament import Entrant, Event, InvalidResult, NoisePlan, Spec, SprtTerms
+from tournament import Entrant, InvalidResult, NoisePlan, Spec, SprtTerms, Tournament
 from tournament.luck import GameLuck, StrokeLuck
 from tournament.report import COLUMNS, csv_text, event_report, json_lines, page, read_json_lines, server_report
 
@@ -22,10 +22,10 @@ RECORDS = [
 ]
 
 
-def nasty_event(**terms) -> Event:
+def nasty_event(**terms) -> Tournament:
     """A finished event of entrants with names that want to be more than text."""
     choose = by_lot(5)
-    event = Event(Spec("Open <b>&</b> noisy", tuple(Entrant(name) for name in NASTY), **terms))
+    event = Tournament(Spec("Open <b>&</b> noisy", tuple(Entrant(name) for name in NASTY), **terms))
     results = [
         result_of(
             due,
@@ -121,7 +121,7 @@ def test_the_data_is_json_and_holds_every_game(report):
 
 
 def test_terms_tell_neither_seed_nor_commands():
-    event = Event(Spec("e", (Entrant("a", "python secret.py"), Entrant("b")), seed="5a" * 32))
+    event = Tournament(Spec("e", (Entrant("a", "python secret.py"), Entrant("b")), seed="5a" * 32))
     data = json.dumps(event_report(event))
     assert "5a5a" not in data
     assert "secret" not in data
@@ -130,7 +130,7 @@ def test_terms_tell_neither_seed_nor_commands():
 @pytest.mark.parametrize("kind", ["round_robin", "swiss", "knockout", "gauntlet"])
 def test_an_event_before_its_first_game_has_a_page(kind):
     terms = {"format": kind, "rounds": 2 if kind == "swiss" else None}
-    data = event_report(Event(Spec("e", tuple(Entrant(name) for name in "abc"), **terms)))
+    data = event_report(Tournament(Spec("e", tuple(Entrant(name) for name in "abc"), **terms)))
     assert "No games yet." in page(data)
     assert not data["state"]["finished"]
     assert data["state"]["due"] > 0
@@ -142,7 +142,7 @@ def test_a_server_without_games_has_a_page():
 
 def test_a_sequential_test_is_told():
     event = play(
-        Event(Spec("e", (Entrant("a"), Entrant("b")), pairs=100, sprt=SprtTerms(0, 100))),
+        Tournament(Spec("e", (Entrant("a"), Entrant("b")), pairs=100, sprt=SprtTerms(0, 100))),
         lambda due: due.pair.players.index("a"),
     )
     html = page(event_report(event))
@@ -163,7 +163,7 @@ def test_luck_is_shown_when_it_is_known():
 def test_a_thousand_entrants_still_fit():
     """A crowd: plots and cross table show the first, the tables all."""
     spec = Spec("crowd", tuple(Entrant(f"p{index}") for index in range(60)), format="gauntlet")
-    html = page(event_report(play(Event(spec), by_lot(1))))
+    html = page(event_report(play(Tournament(spec), by_lot(1))))
     assert html.count("p59") >= 3
     read(html)
 

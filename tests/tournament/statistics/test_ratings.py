@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy import optimize
 from support.events import by_lot, play, spec_of
 
-from tournament import Event, GameResult
+from tournament import GameResult, Tournament
 from tournament.statistics import ladder, rate
 from tournament.statistics.bradley_terry import ELO_PER_UNIT, PRIOR_GAMES
 
@@ -32,7 +32,7 @@ def minus_log_posterior(r, names, games):
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_ratings_are_scipys_optimum(seed):
-    event = play(Event(spec_of(5, pairs=3)), by_lot(seed))
+    event = play(Tournament(spec_of(5, pairs=3)), by_lot(seed))
     ratings = rate(event.results)
     names = list(ratings.names)
     found = optimize.minimize(minus_log_posterior, np.zeros(5), (names, event.results), tol=1e-12)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy import stats
 from support.events import play, spec_of
 
-from tournament import Event
+from tournament import Tournament
 from tournament.statistics import (
     MOST_ELO,
     elo_of,
@@ -134,7 +134,7 @@ def test_counts_that_are_none_are_refused(counts):
 
 
 def test_a_game_without_its_partner_is_left_out_and_told():
-    event = play(Event(spec_of(2, pairs=3)), lambda due: due.pair.players.index("a"))
+    event = play(Tournament(spec_of(2, pairs=3)), lambda due: due.pair.players.index("a"))
     score = score_of(event.results[:-1], "a")
     assert (score.cells, score.unpaired) == ((0, 0, 0, 0, 2), 1)
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from scipy import optimize
 from support.events import result_of, spec_of
 
-from tournament import Event, InvalidSpec, SprtTerms
-from tournament.statistics import Verdict, expected_score, log_likelihood_ratio, sprt
+from tournament import InvalidSpec, SprtTerms, Tournament
+from tournament.statistics import SprtDecision, expected_score, log_likelihood_ratio, sprt
 
 PUBLISHED = [
     ((17, 253, 1042, 337, 39), (-0.5, 1.5), 2.96, 2971),
@@ -67,11 +67,11 @@ def test_the_bounds_are_walds():
 
 def test_it_stops_at_the_first_decision_and_looks_no_further():
     won = sprt(SprtTerms(0, 50), [4] * 1000)
-    assert won.verdict is Verdict.ELO1
+    assert won.verdict is SprtDecision.ELO1
     assert won.pairs < 100
     assert sprt(SprtTerms(0, 50), [4] * won.pairs + [0] * 900) == won
-    assert sprt(SprtTerms(0, 50), [0] * 1000).verdict is Verdict.ELO0
-    assert sprt(SprtTerms(0, 50), []).verdict is Verdict.OPEN
+    assert sprt(SprtTerms(0, 50), [0] * 1000).verdict is SprtDecision.ELO0
+    assert sprt(SprtTerms(0, 50), []).verdict is SprtDecision.OPEN
 
 
 @given(st.integers(0, 2**32))
@@ -79,7 +79,7 @@ def test_it_stops_at_the_first_decision_and_looks_no_further():
 def test_an_event_is_tested_in_the_order_of_pairs_whatever_the_order_of_completion(seed):
     """Results come in any order, some games after the decision: the same pairs count, the same standings follow."""
     chance = random.Random(seed)
-    event = Event(spec_of(2, pairs=60, sprt=SprtTerms(0, 200)))
+    event = Tournament(spec_of(2, pairs=60, sprt=SprtTerms(0, 200)))
     results = [result_of(due, due.pair.players.index("a") if chance.random() < 0.8 else None) for due in event.due]
     whole = event.with_results(*results)
     chance.shuffle(results)
@@ -95,10 +95,10 @@ def test_an_event_is_tested_in_the_order_of_pairs_whatever_the_order_of_completi
 
 
 def test_a_gap_in_the_order_of_pairs_waits():
-    event = Event(spec_of(2, pairs=30, sprt=SprtTerms(0, 100)))
+    event = Tournament(spec_of(2, pairs=30, sprt=SprtTerms(0, 100)))
     later = [result_of(due, due.pair.players.index("a")) for due in event.due if due.pair.number > 0]
     event = event.with_results(*later)
-    assert event.test.verdict is Verdict.OPEN
+    assert event.test.verdict is SprtDecision.OPEN
     assert event.test.pairs == 0
     assert {due.pair.number for due in event.due} == {0}
 

@@ -22,7 +22,7 @@ from server.store.tables import games
 log = logging.getLogger("pooliad.server.timer")
 
 
-class Timer:
+class ClockFlag:
     """Looks at all deadlines several times a second."""
 
     def __init__(self, context: Context) -> None:
