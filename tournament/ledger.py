@@ -108,7 +108,7 @@ class Ledger:
 
 def _result(entry: LedgerEntry) -> GameResult:
     if "result" not in entry.fields:
-        raise InvalidResult("game", dict(entry.fields), "an entry with a result")
+        raise InvalidResult("game", dict(entry.fields), "must be an entry with a result")
     return GameResult.from_dict(entry.fields["result"])
 
 

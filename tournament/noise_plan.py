@@ -1,19 +1,20 @@
 """The noise of an event: one level, several in turn, or a range that each pair's level is drawn from."""
 
-from dataclasses import dataclass
-from typing import Any, Self
+from typing import Annotated, Any, Self
+
+from pydantic import model_serializer, model_validator
 
 from referee.play.noise import LEVEL_MAX
-from tournament.checks import Checker
 from tournament.errors import InvalidSpec
+from tournament.validation import Flag, Value, items, number, value
 
 MOST_LEVELS = 1000
 
-_check = Checker(InvalidSpec)
+Level = Annotated[float, number(0.0, LEVEL_MAX)]
 
 
-@dataclass(frozen=True, slots=True)
-class NoisePlan:
+@value(InvalidSpec, "noise")
+class NoisePlan(Value):
     """Which level each pair of games is played at; both games of a pair have the same.
 
     Attributes:
@@ -26,28 +27,31 @@ class NoisePlan:
         InvalidSpec: no levels, both levels and a range, or a level outside [0, 5].
     """
 
-    levels: tuple[float, ...] = (1.0,)
-    range: tuple[float, float] | None = None
-    told: bool = True
+    levels: Annotated[tuple[Level, ...], items(0, MOST_LEVELS)] = (1.0,)
+    range: Annotated[tuple[Level, Level], items(2, 2)] | None = None
+    told: Flag = True
+
+    @model_validator(mode="before")
+    @classmethod
+    def _short(cls, data: Any) -> Any:
+        """A number alone is one level, told; a range takes the place of the levels."""
+        if isinstance(data, int | float) and not isinstance(data, bool):
+            return {"levels": (data,)}
+        return {"levels": (), **data} if isinstance(data, dict) and "range" in data else data
 
     def __post_init__(self) -> None:
-        levels = _check.items("noise.levels", self.levels, 0, MOST_LEVELS)
-        object.__setattr__(self, "levels", tuple(_level("noise.levels", one) for one in levels))
-        _check.flag("noise.told", self.told)
-        if self.range is not None:
-            low, high = (_level("noise.range", one) for one in _check.items("noise.range", self.range, 2, 2))
-            if low > high:
-                _check.fail("noise.range", self.range, "the lowest level, then the highest")
-            object.__setattr__(self, "range", (low, high))
+        if self.range is not None and self.range[0] > self.range[1]:
+            raise InvalidSpec("range", self.range, "must be the lowest level, then the highest")
         if bool(self.levels) == (self.range is not None):
-            _check.fail("noise", self.to_dict(), "either levels or a range")
+            raise InvalidSpec("", self.to_dict(), "must be either levels or a range")
 
     @classmethod
     def variable(cls, low: float = 0.0, high: float = LEVEL_MAX, *, told: bool = True) -> Self:
         """A level drawn for each pair."""
         return cls(levels=(), range=(low, high), told=told)
 
-    def to_dict(self) -> dict[str, Any]:
+    @model_serializer
+    def _either(self) -> dict[str, Any]:
         """``{"levels": [1.0], "told": true}`` or ``{"range": [0.0, 5.0], "told": true}``."""
         which: dict[str, Any] = {"levels": list(self.levels)} if self.range is None else {"range": list(self.range)}
         return which | {"told": self.told}
@@ -55,17 +59,3 @@ class NoisePlan:
     def published(self) -> dict[str, Any]:
         """The same without levels that the players are not told."""
         return self.to_dict() if self.told else {"told": False}
-
-    @classmethod
-    def from_dict(cls, data: Any) -> Self:
-        """Read what ``to_dict`` wrote; a number alone is one level, told."""
-        if isinstance(data, int | float) and not isinstance(data, bool):
-            return cls((data,))
-        values = _check.object("noise", data, ("levels", "range", "told"))
-        if "range" in values:
-            values.setdefault("levels", ())
-        return cls(**values)
-
-
-def _level(field: str, value: Any) -> float:
-    return _check.number(field, value, 0.0, LEVEL_MAX)

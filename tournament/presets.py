@@ -31,5 +31,5 @@ def expand(values: Mapping[str, Any]) -> dict[str, Any]:
     if name is None:
         return given
     if not isinstance(name, str) or name not in PRESETS:
-        raise InvalidSpec("preset", name, f"one of {', '.join(PRESETS)}")
+        raise InvalidSpec("preset", name, f"must be one of {', '.join(PRESETS)}")
     return {**PRESETS[name], **given}

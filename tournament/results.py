@@ -1,28 +1,32 @@
 """One game's result, as standings, statistics and reports need it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
-from typing import Any, Self
+from dataclasses import field
+from typing import Annotated
 
 from referee.game import EndReason
 from referee.play.noise import LEVEL_MAX
-from tournament.checks import Checker
 from tournament.errors import InvalidResult
 from tournament.pairings import game_id
+from tournament.validation import Flag, Name, Value, integer, items, number, one_of, text, value
 
 LONGEST_REFERENCE = 2048
 MOST = 10**12
 """Bound on counts and seconds: more is a broken writer."""
 
-_check = Checker(InvalidResult)
+Seat = Annotated[int, integer(0, 1)]
+Count = Annotated[int, integer(0, MOST)]
+Counts = Annotated[tuple[Count, Count], items(2, 2)]
+Seconds = Annotated[float, number(0.0, float(MOST))]
+Tally = Mapping[Name, Count]
 
 
 def _no_fouls() -> tuple[Mapping[str, int], Mapping[str, int]]:
     return {}, {}
 
 
-@dataclass(frozen=True, slots=True)
-class GameResult:
+@value(InvalidResult, "result", is_part=False)
+class GameResult(Value):
     """How a game ended.
 
     Attributes:
@@ -44,29 +48,27 @@ class GameResult:
         InvalidResult: naming the field, its value and what is allowed.
     """
 
-    pair: str
-    leg: int
-    players: tuple[str, str]
-    breaker: int
-    winner: int | None
-    reason: EndReason
-    rule: str = "R48"
-    noise: float = 1.0
-    strokes: tuple[int, int] = (0, 0)
-    seconds: tuple[float, float] = (0.0, 0.0)
-    simulated: tuple[int, int] = (0, 0)
-    fouls: tuple[Mapping[str, int], Mapping[str, int]] = field(default_factory=_no_fouls, hash=False)
-    record: str = ""
-    attempt: int = 0
-    void: bool = False
+    pair: Name
+    leg: Seat
+    players: Annotated[tuple[Name, Name], items(2, 2)]
+    breaker: Seat
+    winner: Seat | None
+    reason: Annotated[EndReason, one_of(EndReason)]
+    rule: Name = "R48"
+    noise: Annotated[float, number(0.0, LEVEL_MAX)] = 1.0
+    strokes: Counts = (0, 0)
+    seconds: Annotated[tuple[Seconds, Seconds], items(2, 2)] = (0.0, 0.0)
+    simulated: Counts = (0, 0)
+    fouls: Annotated[tuple[Tally, Tally], items(2, 2)] = field(default_factory=_no_fouls, hash=False)
+    record: Annotated[str, text(LONGEST_REFERENCE)] = ""
+    attempt: Count = 0
+    void: Flag = False
 
     def __post_init__(self) -> None:
-        for name, value in _checked(self).items():
-            object.__setattr__(self, name, value)
         if self.players[0] == self.players[1]:
-            _check.fail("players", self.players, "two different names")
+            raise InvalidResult("players", self.players, "must be two different names")
         if self.reason is EndReason.ABORTED and self.winner is not None:
-            _check.fail("winner", self.winner, "nobody wins an aborted game")
+            raise InvalidResult("winner", self.winner, "must be none: nobody wins an aborted game")
 
     @property
     def id(self) -> str:
@@ -90,72 +92,9 @@ class GameResult:
     def seat(self, name: str) -> int:
         """The seat of a player; ``InvalidResult`` if that player is not in this game."""
         if name not in self.players:
-            _check.fail("player", name, f"one of {self.players}")
+            raise InvalidResult("player", name, f"must be one of {self.players}")
         return self.players.index(name)
 
     def points_of(self, name: str) -> float:
         """The points of a player."""
         return self.points[self.seat(name)]
-
-    def to_dict(self) -> dict[str, Any]:
-        """JSON form."""
-        return {
-            "pair": self.pair,
-            "leg": self.leg,
-            "players": list(self.players),
-            "breaker": self.breaker,
-            "winner": self.winner,
-            "reason": self.reason.value,
-            "rule": self.rule,
-            "noise": self.noise,
-            "strokes": list(self.strokes),
-            "seconds": list(self.seconds),
-            "simulated": list(self.simulated),
-            "fouls": [dict(each) for each in self.fouls],
-            "record": self.record,
-            "attempt": self.attempt,
-            "void": self.void,
-        }
-
-    @classmethod
-    def from_dict(cls, data: Any) -> Self:
-        """Read what ``to_dict`` wrote; what has a default may be missing.
-
-        Raises:
-            InvalidResult: naming the field, its value and what is allowed.
-        """
-        names = [one.name for one in fields(cls)]
-        return cls(**_check.object("result", data, names, names[:6]))
-
-
-def _checked(result: GameResult) -> dict[str, Any]:
-    """Every field, checked by itself and in its own type."""
-    return {
-        "pair": _check.name("pair", result.pair),
-        "leg": _check.integer("leg", result.leg, 0, 1),
-        "players": tuple(_check.name("players", one) for one in _check.items("players", result.players, 2, 2)),
-        "breaker": _check.integer("breaker", result.breaker, 0, 1),
-        "winner": None if result.winner is None else _check.integer("winner", result.winner, 0, 1),
-        "reason": _check.member(EndReason, "reason", result.reason),
-        "rule": _check.name("rule", result.rule),
-        "noise": _check.number("noise", result.noise, 0.0, LEVEL_MAX),
-        "strokes": _counts("strokes", result.strokes),
-        "seconds": tuple(
-            _check.number("seconds", one, 0.0, float(MOST)) for one in _check.items("seconds", result.seconds, 2, 2)
-        ),
-        "simulated": _counts("simulated", result.simulated),
-        "fouls": tuple(_tally(one) for one in _check.items("fouls", result.fouls, 2, 2)),
-        "record": _check.text("record", result.record, LONGEST_REFERENCE),
-        "attempt": _check.integer("attempt", result.attempt, 0, MOST),
-        "void": _check.flag("void", result.void),
-    }
-
-
-def _counts(name: str, value: Any) -> tuple[int, ...]:
-    return tuple(_check.integer(name, one, 0, MOST) for one in _check.items(name, value, 2, 2))
-
-
-def _tally(value: Any) -> dict[str, int]:
-    if not isinstance(value, Mapping):
-        _check.fail("fouls", value, "rule ids and how often, for each seat")
-    return {_check.name("fouls", rule): _check.integer("fouls", count, 0, MOST) for rule, count in value.items()}

@@ -26,7 +26,7 @@ def secret(spec: Spec) -> bytes:
     if isinstance(spec.seed, str):
         return bytes.fromhex(spec.seed)
     if spec.seed is None and spec.lots is not None:
-        raise InvalidSpec("seed", None, "the one that the server reveals when the event is over")
+        raise InvalidSpec("seed", None, "must be the one that the server reveals when the event is over")
     return hashlib.sha256(f"pooliad/1 event {spec.seed or 0}".encode("ascii")).digest()
 
 

@@ -3,17 +3,20 @@
 A spec is a value: the same spec and the same results give the same pairings, racks and noise.
 """
 
+from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import replace
 from enum import StrEnum
-from typing import Any, Self
+from typing import Annotated, Any, Self
+
+from pydantic import PlainValidator, model_validator
 
 from referee.play.clock import LEAST_SECONDS, MOST_SECONDS
-from tournament.checks import Checker
 from tournament.errors import InvalidSpec
 from tournament.noise_plan import NoisePlan
 from tournament.presets import expand
 from tournament.sprt_terms import SprtTerms
+from tournament.validation import Name, Value, integer, items, number, one_of, text, value
 
 MOST_ENTRANTS, MOST_PAIRS, MOST_ROUNDS = 1000, 100_000, 1000
 MOST_IN_SWISS = 256
@@ -23,8 +26,6 @@ MOST_IN_EVENT = 250_000
 MOST_SHOTS = 10**9
 LONGEST_AGENT = 4096
 """Bounds that keep a slip of the pen from asking for a million years of play."""
-
-_check = Checker(InvalidSpec)
 
 
 class Format(StrEnum):
@@ -73,9 +74,9 @@ class Seeding(StrEnum):
     """Drawn by lot, from the event's seed."""
 
 
-@dataclass(frozen=True, slots=True)
-class Entrant:
-    """Who takes part.
+@value(InvalidSpec, "entrant")
+class Entrant(Value):
+    """Who takes part; a text alone is name and agent in one.
 
     Attributes:
         name: unique in the event.
@@ -83,23 +84,16 @@ class Entrant:
             command. Left empty, it is the name.
     """
 
-    name: str
-    agent: str = ""
+    name: Name
+    agent: Annotated[str, text(LONGEST_AGENT)] = ""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _short(cls, data: Any) -> Any:
+        return {"name": data} if isinstance(data, str) else data
 
     def __post_init__(self) -> None:
-        _check.name("entrant.name", self.name)
-        object.__setattr__(self, "agent", _check.text("entrant.agent", self.agent, LONGEST_AGENT) or self.name)
-
-    def to_dict(self) -> dict[str, Any]:
-        """``{"name": "greedy", "agent": "greedy"}``."""
-        return {"name": self.name, "agent": self.agent}
-
-    @classmethod
-    def from_dict(cls, data: Any) -> Self:
-        """Read what ``to_dict`` wrote; a text alone is name and agent in one."""
-        if isinstance(data, str):
-            return cls(data)
-        return cls(**_check.object("entrant", data, ("name", "agent"), ("name",)))
+        object.__setattr__(self, "agent", self.agent or self.name)
 
 
 _DEFAULT_TIE_BREAKS = {
@@ -110,9 +104,44 @@ _DEFAULT_TIE_BREAKS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Spec:
+def _table(value: Any) -> str | Mapping[str, Any]:
+    """A table's name or its parameters; the physics says whether they make a table."""
+    from physics import Table
+
+    if value in ("olympiad", "fastfiz"):
+        return str(value)
+    if not isinstance(value, Mapping):
+        raise InvalidSpec("", value, "must be olympiad, fastfiz or a table's parameters")
+    return Table.from_dict(value).to_dict()
+
+
+def _seed(value: Any) -> int | str | None:
+    if isinstance(value, str):
+        return _secret(value, "64 lower-case hexadecimal digits, or an integer")
+    if isinstance(value, bool) or not isinstance(value, int | None) or not 0 <= (value or 0) < 2**63:
+        raise InvalidSpec("", value, f"must be an integer from 0 to {2**63 - 1}, or 64 hexadecimal digits")
+    return value
+
+
+def _lots(value: Any) -> str | None:
+    return None if value is None else _secret(value, "64 lower-case hexadecimal digits")
+
+
+def _secret(value: Any, allowed: str) -> str:
+    """A secret in writing; the error does not repeat it."""
+    if not isinstance(value, str) or len(value) != 64 or not set(value) <= set("0123456789abcdef"):
+        shown = f"<{len(value)} letters>" if isinstance(value, str) else type(value).__name__
+        raise InvalidSpec("", shown, f"must be {allowed}")
+    return value
+
+
+@value(InvalidSpec, "event", is_part=False)
+class Spec(Value):
     """The terms of an event.
+
+    ``from_dict`` reads a JSON object or a TOML table: what is left out has its default, and ``"preset"`` names one of
+    ``PRESETS``, whose values what is given here overrides. Unknown keys are refused; ``"foreseeable"``, which published
+    terms have, follows from the others.
 
     Attributes:
         name: of the event.
@@ -140,28 +169,40 @@ class Spec:
         InvalidSpec: naming the field, its value and what is allowed.
     """
 
-    name: str
-    entrants: tuple[Entrant, ...]
-    format: Format = Format.ROUND_ROBIN
-    pairs: int = 1
-    rounds: int | None = None
-    challengers: int = 1
-    extra_pairs: int = 2
-    drawn: Drawn = Drawn.SEED
-    seeding: Seeding = Seeding.LISTED
-    tie_breaks: tuple[TieBreak, ...] = ()
-    noise: NoisePlan = field(default_factory=NoisePlan)
-    seconds: float | None = 300.0
-    simulated_shots: int | None = None
-    table: str | Mapping[str, Any] = "olympiad"
-    seed: int | str | None = None
+    name: Name
+    entrants: Annotated[tuple[Entrant, ...], items(2, MOST_ENTRANTS)]
+    format: Annotated[Format, one_of(Format)] = Format.ROUND_ROBIN
+    pairs: Annotated[int, integer(1, MOST_PAIRS)] = 1
+    rounds: Annotated[int, integer(1, MOST_ROUNDS)] | None = None
+    challengers: Annotated[int, integer(1, MOST_ENTRANTS)] = 1
+    extra_pairs: Annotated[int, integer(0, MOST_PAIRS)] = 2
+    drawn: Annotated[Drawn, one_of(Drawn)] = Drawn.SEED
+    seeding: Annotated[Seeding, one_of(Seeding)] = Seeding.LISTED
+    tie_breaks: Annotated[tuple[Annotated[TieBreak, one_of(TieBreak)], ...], items(0, len(TieBreak))] = ()
+    noise: NoisePlan = NoisePlan()
+    seconds: Annotated[float, number(LEAST_SECONDS, MOST_SECONDS)] | None = 300.0
+    simulated_shots: Annotated[int, integer(0, MOST_SHOTS)] | None = None
+    table: Annotated[str | Mapping[str, Any], PlainValidator(_table)] = "olympiad"
+    seed: Annotated[int | str | None, PlainValidator(_seed)] = None
     sprt: SprtTerms | None = None
-    lots: str | None = None
+    lots: Annotated[str | None, PlainValidator(_lots)] = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _expanded(cls, data: Any) -> Any:
+        """With the preset's values, and without the mark of published terms."""
+        if not isinstance(data, Mapping):
+            return data
+        values = expand(data)
+        marked = values.pop("foreseeable", None)
+        if marked is not None and not isinstance(marked, bool):
+            raise InvalidSpec("foreseeable", marked, "must be true or false")
+        if marked is False and values.get("seed") is not None and values.get("lots") is None:
+            raise InvalidSpec("foreseeable", marked, "must be true where a seed is chosen")
+        return values
 
     def __post_init__(self) -> None:
-        for name, value in _checked(self).items():
-            object.__setattr__(self, name, value)
-        _check_names(self.entrants)
+        object.__setattr__(self, "tie_breaks", self.tie_breaks or _DEFAULT_TIE_BREAKS[self.format])
         _check_together(self)
 
     @property
@@ -176,25 +217,8 @@ class Spec:
 
     def to_dict(self) -> dict[str, Any]:
         """JSON form, seed and lots included: as long as the event goes on, this is for whoever runs it alone."""
-        lots = {} if self.lots is None else {"lots": self.lots}
-        return lots | {
-            "name": self.name,
-            "entrants": [entrant.to_dict() for entrant in self.entrants],
-            "format": self.format.value,
-            "pairs": self.pairs,
-            "rounds": self.rounds,
-            "challengers": self.challengers,
-            "extra_pairs": self.extra_pairs,
-            "drawn": self.drawn.value,
-            "seeding": self.seeding.value,
-            "tie_breaks": [one.value for one in self.tie_breaks],
-            "noise": self.noise.to_dict(),
-            "seconds": self.seconds,
-            "simulated_shots": self.simulated_shots,
-            "table": self.table if isinstance(self.table, str) else dict(self.table),
-            "seed": self.seed,
-            "sprt": None if self.sprt is None else self.sprt.to_dict(),
-        }
+        terms = Value.to_dict(self)
+        return terms if self.lots is not None else {name: terms[name] for name in terms if name != "lots"}
 
     def published(self) -> dict[str, Any]:
         """The terms as everybody may read them while the event goes on.
@@ -211,138 +235,40 @@ class Spec:
         lots = {} if self.lots is None else {"lots": self.lots}
         return self.published() | {"noise": self.noise.to_dict(), "seed": self.seed} | lots
 
-    @classmethod
-    def from_dict(cls, data: Any) -> Self:
-        """Read a JSON object or a TOML table.
-
-        What is left out has its default; ``"preset"`` names one of ``PRESETS``, whose values what is given here
-        overrides. Unknown keys are refused; ``"foreseeable"``, which published terms have, follows from the others.
-
-        Raises:
-            InvalidSpec: naming the field, its value and what is allowed.
-        """
-        known = [one.name for one in fields(cls)]
-        values = expand(_check.object("event", data, (*known, "preset", "foreseeable"), ("name", "entrants")))
-        _check_foreseeable(values)
-        entrants = _check.items("entrants", values["entrants"], 2, MOST_ENTRANTS)
-        values["entrants"] = tuple(Entrant.from_dict(one) for one in entrants)
-        if "noise" in values:
-            values["noise"] = NoisePlan.from_dict(values["noise"])
-        if values.get("sprt") is not None:
-            values["sprt"] = SprtTerms.from_dict(values["sprt"])
-        return cls(**values)
-
     def with_seed(self, seed: int | str) -> Self:
         """The same terms with a seed that is chosen."""
         return replace(self, seed=seed, lots=None)
 
 
-def _checked(spec: Spec) -> dict[str, Any]:
-    """Every field, checked by itself and in its own type."""
-    kind = _check.member(Format, "format", spec.format)
-    tie_breaks = _check.items("tie_breaks", spec.tie_breaks, 0, len(TieBreak))
-    return {
-        "name": _check.name("name", spec.name),
-        "entrants": _entrants(spec.entrants),
-        "format": kind,
-        "pairs": _check.integer("pairs", spec.pairs, 1, MOST_PAIRS),
-        "rounds": None if spec.rounds is None else _check.integer("rounds", spec.rounds, 1, MOST_ROUNDS),
-        "challengers": _check.integer("challengers", spec.challengers, 1, MOST_ENTRANTS),
-        "extra_pairs": _check.integer("extra_pairs", spec.extra_pairs, 0, MOST_PAIRS),
-        "drawn": _check.member(Drawn, "drawn", spec.drawn),
-        "seeding": _check.member(Seeding, "seeding", spec.seeding),
-        "tie_breaks": tuple(_check.member(TieBreak, "tie_breaks", one) for one in tie_breaks)
-        or _DEFAULT_TIE_BREAKS[kind],
-        "noise": _kind("noise", spec.noise, NoisePlan),
-        "seconds": None
-        if spec.seconds is None
-        else _check.number("seconds", spec.seconds, LEAST_SECONDS, MOST_SECONDS),
-        "simulated_shots": None
-        if spec.simulated_shots is None
-        else _check.integer("simulated_shots", spec.simulated_shots, 0, MOST_SHOTS),
-        "table": _table(spec.table),
-        "seed": _seed(spec.seed),
-        "lots": None if spec.lots is None else _digits("lots", spec.lots),
-        "sprt": None if spec.sprt is None else _kind("sprt", spec.sprt, SprtTerms),
-    }
-
-
-def _entrants(value: Any) -> tuple[Entrant, ...]:
-    entrants = _check.items("entrants", value, 2, MOST_ENTRANTS)
-    return tuple(_kind(f"entrants[{index}]", one, Entrant) for index, one in enumerate(entrants))
-
-
-def _kind(field: str, value: Any, kind: type) -> Any:
-    if not isinstance(value, kind):
-        _check.fail(field, value, f"a tournament.{kind.__name__}")
-    return value
-
-
-def _table(value: Any) -> str | Mapping[str, Any]:
-    """A table's name or its parameters; the physics says whether they make a table."""
-    from physics import InvalidTable, Table
-
-    if value in ("olympiad", "fastfiz"):
-        return str(value)
-    if not isinstance(value, Mapping):
-        _check.fail("table", value, "olympiad, fastfiz or a table's parameters")
-    try:
-        return Table.from_dict(value).to_dict()
-    except InvalidTable as error:
-        _check.fail(f"table.{error.field}", error.value, error.allowed)
-
-
-def _seed(value: Any) -> int | str | None:
-    if value is None:
-        return None
-    return _digits("seed", value) if isinstance(value, str) else _check.integer("seed", value, 0, 2**63 - 1)
-
-
-def _digits(field: str, value: Any) -> str:
-    """A secret in writing; the error does not repeat it."""
-    if not isinstance(value, str):
-        _check.fail(field, type(value).__name__, "64 lower-case hexadecimal digits")
-    if len(value) != 64 or not set(value) <= set("0123456789abcdef"):
-        also = ", or an integer" if field == "seed" else ""
-        _check.fail(field, f"<{len(value)} letters>", f"64 lower-case hexadecimal digits{also}")
-    return value
-
-
-def _check_foreseeable(values: dict[str, Any]) -> None:
-    """Take the mark off published terms; a seed that was chosen is never one that nobody can foresee."""
-    given = values.pop("foreseeable", None)
-    if given is False and values.get("seed") is not None and values.get("lots") is None:
-        _check.fail("foreseeable", given, "true where a seed is chosen")
-    if given is not None:
-        _check.flag("foreseeable", given)
-
-
-def _check_names(entrants: tuple[Entrant, ...]) -> None:
-    seen: set[str] = set()
-    for entrant in entrants:
-        if entrant.name in seen:
-            _check.fail("entrants", entrant.name, "names that are all different")
-        seen.add(entrant.name)
-
-
 def _check_together(spec: Spec) -> None:
-    """What one field allows another."""
-    swiss = spec.format is Format.SWISS
+    """What one field allows another.
+
+    Raises:
+        InvalidSpec: they contradict each other.
+    """
+    swiss, count = spec.format is Format.SWISS, len(spec.entrants)
+    if twice := [name for name, times in Counter(spec.names).items() if times > 1]:
+        raise InvalidSpec("entrants", twice[0], "must be names that are all different")
     if swiss and spec.rounds is None:
-        _check.fail("rounds", spec.rounds, "how many rounds a Swiss has")
-    if swiss and len(spec.entrants) > MOST_IN_SWISS:
-        _check.fail("entrants", f"{len(spec.entrants)} entrants", f"at most {MOST_IN_SWISS} in a Swiss")
+        raise InvalidSpec("rounds", spec.rounds, "must be given: a Swiss has as many rounds as its terms say")
+    if swiss and count > MOST_IN_SWISS:
+        raise InvalidSpec("entrants", f"{count} entrants", f"must be at most {MOST_IN_SWISS} in a Swiss")
     if not swiss and spec.rounds is not None:
-        _check.fail("rounds", spec.rounds, f"nothing: a {spec.format} has the rounds it needs")
-    if spec.format is Format.GAUNTLET and spec.challengers >= len(spec.entrants):
-        _check.fail("challengers", spec.challengers, f"fewer than the {len(spec.entrants)} entrants")
+        raise InvalidSpec("rounds", spec.rounds, f"must be left out: a {spec.format} has the rounds it needs")
+    if spec.format is Format.GAUNTLET and spec.challengers >= count:
+        raise InvalidSpec("challengers", spec.challengers, f"must be fewer than the {count} entrants")
     most = _most_meetings(spec) * (spec.pairs + (spec.extra_pairs if spec.format is Format.KNOCKOUT else 0))
     if most > MOST_IN_EVENT:
-        _check.fail("pairs", spec.pairs, f"at most {MOST_IN_EVENT} pairs of games in an event; these terms make {most}")
+        allowed = (
+            f"must be such that there are at most {MOST_IN_EVENT} pairs of games in an event; these terms make {most}"
+        )
+        raise InvalidSpec("pairs", spec.pairs, allowed)
     if spec.lots is not None and isinstance(spec.seed, int):
-        _check.fail("lots", "<64 letters>", "nothing: the seed is chosen")
-    if spec.sprt is not None and (len(spec.entrants) != 2 or spec.format is Format.KNOCKOUT):
-        _check.fail("sprt", f"{len(spec.entrants)} entrants, {spec.format}", "two entrants, and no knockout")
+        raise InvalidSpec("lots", "<64 letters>", "must be left out where a seed is chosen")
+    if spec.sprt is not None and (count != 2 or spec.format is Format.KNOCKOUT):
+        raise InvalidSpec(
+            "sprt", f"{count} entrants, {spec.format}", "must be left out but for two entrants, and no knockout"
+        )
 
 
 def _most_meetings(spec: Spec) -> int:

@@ -8,7 +8,6 @@ from types import MappingProxyType
 from typing import Any, Self
 
 from referee.game import EndReason
-from tournament.checks import Checker
 from tournament.errors import InvalidResult
 from tournament.formats import planner
 from tournament.pairings import LEGS, Bye, Due, Pair, Plan
@@ -16,8 +15,6 @@ from tournament.results import GameResult
 from tournament.scores import Key, Meeting, counting, meetings
 from tournament.spec import MOST_ROUNDS, Format, Spec
 from tournament.statistics.sprt import SprtState, sprt
-
-_check = Checker(InvalidResult)
 
 
 @dataclass(frozen=True)
@@ -43,7 +40,8 @@ class Tournament:
         object.__setattr__(self, "withdrawn", MappingProxyType(dict(self.withdrawn)))
         for name, around in self.withdrawn.items():
             self._check_entrant("withdrawn", name)
-            _check.integer("withdrawn", around, 0, MOST_ROUNDS)
+            if isinstance(around, bool) or not isinstance(around, int) or not 0 <= around <= MOST_ROUNDS:
+                raise InvalidResult("withdrawn", around, f"must be an integer from 0 to {MOST_ROUNDS}")
         self._check_once()
 
     @cached_property
@@ -142,11 +140,11 @@ class Tournament:
         """
         result = self.games.get((pair, leg))
         if result is None:
-            _check.fail("pair", f"{pair} game {leg}", "a game with a result")
+            raise InvalidResult("pair", f"{pair} game {leg}", "must be a game with a result")
         if gone := set(self.withdrawn).intersection(result.players):
-            _check.fail("pair", pair, f"a game that can be played again: {gone.pop()} has left")
+            raise InvalidResult("pair", pair, f"must be a game that can be played again: {gone.pop()} has left")
         if self._drawn_from(pair):
-            _check.fail("pair", pair, "a game that no later round or extra pair has followed from")
+            raise InvalidResult("pair", pair, "must be a game that no later round or extra pair has followed from")
         void = replace(result, void=True)
         return replace(self, results=tuple(void if one is result else one for one in self.results))
 
@@ -207,15 +205,17 @@ class Tournament:
 
     def _check_entrant(self, field_: str, name: Any) -> None:
         if name not in self.spec.names:
-            _check.fail(field_, name, f"an entrant of {self.spec.name}")
+            raise InvalidResult(field_, name, f"must be an entrant of {self.spec.name}")
 
     def _check_once(self) -> None:
         seen: set[Key] = set()
         for one in self.results:
             if not isinstance(one, GameResult):
-                _check.fail("results", one, "a tournament.GameResult")
+                raise InvalidResult("results", one, "must be a tournament.GameResult")
             if one.counts and (one.pair, one.leg) in seen:
-                _check.fail("results", f"{one.pair} game {one.leg}", "one result that counts for each game")
+                raise InvalidResult(
+                    "results", f"{one.pair} game {one.leg}", "must be one result that counts for each game"
+                )
             if one.counts:
                 seen.add((one.pair, one.leg))
 
@@ -223,9 +223,11 @@ class Tournament:
         for result in results:
             pair = pairs.get(result.pair)
             if pair is None:
-                _check.fail("pair", result.pair, "a pair of this event")
+                raise InvalidResult("pair", result.pair, "must be a pair of this event")
             if result.players != pair.players or result.breaker != pair.breaker(result.leg):
-                _check.fail("players", (result.players, result.breaker), f"{pair.players}, seat {result.leg} breaking")
+                raise InvalidResult(
+                    "players", (result.players, result.breaker), f"must be {pair.players}, seat {result.leg} breaking"
+                )
 
 
 def forfeit(due: Due, loser: str, reason: EndReason = EndReason.FORFEIT) -> GameResult:

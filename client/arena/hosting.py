@@ -5,13 +5,16 @@ import re
 import shlex
 import sys
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import field
 from enum import StrEnum
-from typing import Any, Self
+from typing import Annotated, Any, Self
 
 from client.agents.registry import SHIPPED, STDIO
 from client.arena.directory import EventError
-from physics.errors import shown
+from physics.errors import FieldError, shown
+from referee.play.clock import MOST_SECONDS
+from tournament.spec import LONGEST_AGENT
+from tournament.validation import Flag, Must, Value, above, integer, text, value
 
 ANSWER_SECONDS = 60.0
 """How long an agent may be silent in an event without clocks: a program that is not dead has answered by then."""
@@ -35,8 +38,12 @@ class Kind(StrEnum):
     """An agent that plays at the server by itself: ``remote:AGENT_ID``, or ``remote`` for the one of that name."""
 
 
-@dataclass(frozen=True, slots=True)
-class Hosting:
+def _refusal(name: str, given: Any, allowed: str) -> EventError:
+    return EventError(f"{name} = {shown(given)}: {allowed}")
+
+
+@value(_refusal, "hosting")
+class Hosting(Value):
     """How one entrant is run.
 
     Attributes:
@@ -52,23 +59,32 @@ class Hosting:
         EventError: naming the field, its value and what is allowed.
     """
 
-    agent: str
+    agent: Annotated[str, text(LONGEST_AGENT)]
     options: Mapping[str, Any] = field(default_factory=dict, hash=False)
-    process: bool | None = None
-    memory_mb: int | None = None
-    cores: int | None = None
-    answer_seconds: float = ANSWER_SECONDS
-    environment: Mapping[str, str] = field(default_factory=dict, hash=False)
+    process: Flag | None = None
+    memory_mb: Annotated[int, integer(1, MOST_MEMORY_MB)] | None = None
+    cores: Annotated[int, integer(1, MOST_CORES)] | None = None
+    answer_seconds: Annotated[float, above(0.0, MOST_SECONDS)] = ANSWER_SECONDS
+    environment: Mapping[str, Annotated[str, Must("a text")]] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
-        _check_numbers(self)
-        _check_mappings(self)
-        if self.process not in (None, True, False):
-            _fail("process", self.process, "true or false")
+        if self.kind is Kind.IMPORT_PATH and not _IMPORT_PATH.fullmatch(self.agent):
+            names = f"{', '.join(SHIPPED)}, module:Class, stdio:COMMAND, remote or remote:AGENT_ID"
+            raise FieldError("agent", self.agent, f"must be {names}")
+        try:
+            shlex.split(self.agent)
+        except ValueError as error:
+            raise FieldError("agent", self.agent, f"must be a command as a shell would read it ({error})") from None
         if self.options and self.kind not in (Kind.SHIPPED, Kind.IMPORT_PATH):
-            _fail("options", dict(self.options), f"none for a {self.kind}: options are a class's arguments")
+            allowed = f"must be empty for a {self.kind}: options are a class's arguments"
+            raise FieldError("options", dict(self.options), allowed)
         if not self.as_process and (self.memory_mb or self.cores or self.environment):
-            _fail("process", self.process, "true, if memory_mb, cores or environment are given")
+            raise FieldError("process", self.process, "must be true if memory_mb, cores or environment are given")
+
+    @classmethod
+    def of(cls, agent: str, table: Any) -> Self:
+        """An entrant's ``agent`` and its table of an event file, or what ``to_dict`` wrote."""
+        return cls.from_dict({"agent": agent, **table} if isinstance(table, Mapping) else table)
 
     @property
     def kind(self) -> Kind:
@@ -95,48 +111,3 @@ class Hosting:
         """The command line of its process (``client.arena.hosted_agents``); ``seed`` is for agents of this package."""
         here = [sys.executable, "-P", "-m", "client.arena.hosted_agents", self.agent]
         return [*here, "--seed", str(seed), "--options", json.dumps(dict(self.options))]
-
-    def to_dict(self) -> dict[str, Any]:
-        """JSON form."""
-        return asdict(self) | {"options": dict(self.options), "environment": dict(self.environment)}
-
-    @classmethod
-    def from_dict(cls, agent: str, data: Any) -> Self:
-        """Read an entrant's table of an event file, or what ``to_dict`` wrote."""
-        known = {each.name for each in fields(cls)} - {"agent"}
-        if not isinstance(data, Mapping) or not set(data) - {"agent"} <= known:
-            _fail("hosting", data, f"a table with {', '.join(sorted(known))}")
-        values = {"agent": agent, **data}
-        if not isinstance(values["agent"], str):
-            _fail("agent", values["agent"], "a text")
-        return cls(**values)
-
-
-def _check_numbers(hosting: Hosting) -> None:
-    bounds = {"memory_mb": MOST_MEMORY_MB, "cores": MOST_CORES}
-    for name, most in bounds.items():
-        value = getattr(hosting, name)
-        if value is not None and (isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= most):
-            _fail(name, value, f"an integer in [1, {most}]")
-    seconds = hosting.answer_seconds
-    if isinstance(seconds, bool) or not isinstance(seconds, int | float) or not 0.0 < seconds <= 86_400.0:
-        _fail("answer_seconds", seconds, "a number in (0, 86400]")
-
-
-def _check_mappings(hosting: Hosting) -> None:
-    if hosting.kind is Kind.IMPORT_PATH and not _IMPORT_PATH.fullmatch(hosting.agent):
-        allowed = f"{', '.join(SHIPPED)}, module:Class, stdio:COMMAND, remote or remote:AGENT_ID"
-        _fail("agent", hosting.agent, allowed)
-    try:
-        shlex.split(hosting.agent)
-    except ValueError as error:
-        _fail("agent", hosting.agent, f"a command as a shell would read it ({error})")
-    for name in ("options", "environment"):
-        if not isinstance(getattr(hosting, name), Mapping):
-            _fail(name, getattr(hosting, name), "a table")
-    if not all(isinstance(each, str) for each in hosting.environment.values()):
-        _fail("environment", dict(hosting.environment), "a table of texts")
-
-
-def _fail(name: str, value: Any, allowed: str) -> None:
-    raise EventError(f"hosting.{name} = {shown(value)}: {allowed}")

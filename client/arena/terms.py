@@ -56,8 +56,9 @@ class Terms:
             raise EventError(str(error)) from None
         if not isinstance(tables, dict) or not set(tables) <= set(spec.names):
             names = list(tables) if isinstance(tables, dict) else tables
-            raise EventError(f"hosting = {shown(names)}: tables named like entrants, {', '.join(spec.names)}")
-        return cls(spec, {one.name: Hosting.from_dict(one.agent, tables.get(one.name, {})) for one in spec.entrants})
+            allowed = f"must be tables named after entrants: {', '.join(spec.names)}"
+            raise EventError(f"hosting = {shown(names)}: {allowed}")
+        return cls(spec, {one.name: Hosting.of(one.agent, tables.get(one.name, {})) for one in spec.entrants})
 
     def to_dict(self) -> dict[str, Any]:
         """JSON form."""

@@ -46,6 +46,41 @@ def test_ratings_cover_95_percent():
     assert row["covered"] == pytest.approx(0.95, abs=0.05)
 
 
+def test_eight_equal_players_are_held_at_once_only_by_simultaneous_intervals():
+    """Marginal ones all hold in some two thirds of events (0.95^8); three standard deviations of 80 events."""
+    row = event_statistics.rating_coverage(8, 3, 0.0, 0.0, 80)
+    assert row["all_by_chance"] < 0.85
+    assert row["simultaneous"] == pytest.approx(0.95, abs=0.075)
+    assert row["ranks"] == pytest.approx(0.95, abs=0.075)
+    assert row["bootstrap"] == pytest.approx(row["dispersion"], rel=0.1)
+
+
+@pytest.mark.parametrize("score", [0.5, 0.9])
+def test_intervals_without_luck_cover_95_percent_of_400_events(score):
+    """Three standard deviations of a share of 400; narrower than those of the points of equal players."""
+    row = event_statistics.luck_coverage(score, 10, 400)
+    assert row["covered"] == pytest.approx(0.95, abs=0.033)
+    assert row["mean"] == pytest.approx(score, abs=0.02)
+    if score == 0.5:
+        assert row["width"] < 0.8 * row["width_as_played"]
+
+
+def test_an_interval_of_few_pairs_takes_milliseconds():
+    """Of processor time, some 20; ten times that is still no wait, and not the seconds of a general root finder."""
+    row = event_statistics.interval_time(12)
+    assert row["first_ms"] < 2000
+    assert row["median_ms"] < 300
+
+
+def test_intervals_of_few_pairs_miss_on_one_side():
+    """A stronger player is underrated where the interval misses, never overrated (docs/tournaments.md, "Scores")."""
+    for pairs in (6, 8):
+        row = event_statistics.exact_coverage(0.75, pairs)
+        for draws in (0, 10, 40):
+            assert row[f"above_draws_{draws}"] == 0.0
+            assert 0.02 < row[f"below_draws_{draws}"] < 0.05
+
+
 def test_luck_is_told_for_games_of_simple_players():
     row = luck.study(1.0, 2, 2)
     assert row["games"] == 2

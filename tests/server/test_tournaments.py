@@ -158,9 +158,9 @@ def test_who_is_disqualified_leaves_the_game_and_the_event(cup, organiser):
     [
         ({"pairs": 0}, {}, "terms.pairs"),
         ({"name": ""}, {}, "terms.name"),
-        ({"noise": {"levels": [9]}}, {}, "terms.noise.levels"),
+        ({"noise": {"levels": [9]}}, {}, "terms.noise.levels.0"),
         ({"seconds": 1e-10}, {}, "terms.seconds"),
-        ({"sed": 3}, {}, "terms.event"),
+        ({"sed": 3}, {}, "terms.sed"),
         ({"table": {"name": "olympiad", "mu_slide": -1}}, {}, "terms.table.mu_slide"),
         ({}, {"ann": "agent_0"}, "agents.ann"),
         ({}, {"nobody": "agent_0"}, "agents"),

@@ -177,7 +177,7 @@ def test_a_game_of_one_who_has_left_is_not_played_again():
 
 
 def test_nobody_else_can_be_disqualified():
-    with pytest.raises(InvalidResult, match="name = 'z': an entrant of event"):
+    with pytest.raises(InvalidResult, match="name = 'z': must be an entrant of event"):
         Tournament(spec_of(2)).disqualified("z")
 
 
@@ -188,17 +188,24 @@ def test_nobody_else_can_be_disqualified():
         ({"winner": True}, "winner = True"),
         ({"leg": 2}, "leg = 2"),
         ({"players": ["a", "a"]}, "two different names"),
-        ({"players": ["a"]}, "players = "),
-        ({"reason": "bored"}, "reason = 'bored': one of eight_made"),
-        ({"seconds": [float("inf"), 0]}, "seconds = inf"),
-        ({"strokes": [-1, 0]}, "strokes = -1"),
-        ({"fouls": [{"R33": 1.5}, {}]}, "fouls = 1.5"),
-        ({"fouls": [3, {}]}, "fouls = 3"),
+        ({"players": ["a"]}, "players = ['a']: must be a list of 2"),
+        ({"players": "ab"}, "players = 'ab': must be a list of 2"),
+        ({"players": ["a", "b\n"]}, "players[1] = 'b\\n': must be 1 to 64 printable letters"),
+        ({"players": ["a", "x" * 65]}, "must be 1 to 64 printable letters"),
+        ({"fouls": [{"R\n": 1}, {}]}, "fouls[0].'R\\n' = 'R\\n': must be 1 to 64 printable letters"),
+        ({"attempt": 10**13}, "attempt = 10000000000000: must be an integer"),
+        ({"seconds": [10**400, 0]}, "seconds[0] = 1000"),
+        ({"breaker": "1"}, "breaker = '1': must be an integer from 0 to 1"),
+        ({"reason": "bored"}, "reason = 'bored': must be one of eight_made"),
+        ({"seconds": [float("inf"), 0]}, "seconds[0] = inf: must be a number from 0 to 1e+12"),
+        ({"strokes": [-1, 0]}, "strokes[0] = -1: must be an integer from 0 to"),
+        ({"fouls": [{"R33": 1.5}, {}]}, "fouls[0].R33 = 1.5: must be an integer"),
+        ({"fouls": [3, {}]}, "fouls[0] = 3: must be an object (a table)"),
         ({"noise": 9.0}, "noise = 9.0"),
         ({"record": 3}, "record = 3"),
         ({"reason": "aborted"}, "nobody wins an aborted game"),
         ({"void": 1}, "void = 1"),
-        ({"shoes": "red"}, "result = ['shoes']"),
+        ({"shoes": "red"}, "shoes = 'red': must be left out; the fields are pair, leg"),
     ],
 )
 def test_a_result_that_cannot_be_is_named(change, words):

@@ -11,7 +11,7 @@ from tournament.luck import GameLuck
 from tournament.results import GameResult
 from tournament.scores import Key
 from tournament.standings import standings
-from tournament.statistics import ladder, rate, score_of
+from tournament.statistics import Mean, Ratings, ladder, mean_of, rate, score_of
 from tournament.tournament import Tournament
 
 FORMAT = "pooliad-report/1"
@@ -19,6 +19,8 @@ MOST_LEVELS = 6
 """More different noise levels than this are put together in bins of one."""
 
 Data = dict[str, Any]
+
+_UNRATED: Data = {"ratings": [], "superiority": {"names": [], "likelihoods": []}}
 
 
 def event_report(event: Tournament, luck: Mapping[Key, GameLuck] | None = None, *, rated: bool = True) -> Data:
@@ -46,7 +48,7 @@ def event_report(event: Tournament, luck: Mapping[Key, GameLuck] | None = None, 
         "standings": [line.to_dict() for line in standings(event)],
         "byes": [{"round": bye.round, "player": bye.player} for bye in event.byes],
         **_common(event.counted, event.spec.names, luck or {}),
-        **({} if rated else {"ratings": []}),
+        **({} if rated else _UNRATED),
         "games": [_game(result, luck or {}) for result in _in_order(event)],
     }
 
@@ -72,6 +74,8 @@ def _common(counted: Sequence[GameResult], names: Sequence[str], luck: Mapping[K
     return {
         "ratings": [rating.to_dict() for rating in ratings.table],
         "dispersion": ratings.dispersion,
+        "bootstrap_dispersion": ratings.bootstrap_dispersion,
+        "superiority": _superiority(ratings),
         "scores": [{"name": name, **score_of(games, name).to_dict()} for name, games in by_player.items()],
         "meetings": _meetings(counted),
         "noise": [row for name, games in by_player.items() for row in _by_noise(name, games, counted)],
@@ -80,6 +84,13 @@ def _common(counted: Sequence[GameResult], names: Sequence[str], luck: Mapping[K
         "ends": _ends(counted),
         "luck": [row for name, games in by_player.items() if (row := _luck(name, games, luck))],
     }
+
+
+def _superiority(ratings: Ratings) -> Data:
+    """Everybody against everybody, in the order of the ratings: how likely the row's entrant is the stronger one."""
+    names = [one.name for one in ratings.table]
+    order = [ratings.names.index(name) for name in names]
+    return {"names": names, "likelihoods": ratings.superiorities()[order][:, order].round(4).tolist()}
 
 
 def _meetings(counted: Sequence[GameResult]) -> list[Data]:
@@ -161,22 +172,22 @@ def _ends(counted: Sequence[GameResult]) -> list[Data]:
 
 
 def _luck(name: str, games: Sequence[GameResult], luck: Mapping[Key, GameLuck]) -> Data | None:
-    """Luck per game of a player, and the score without it."""
+    """Luck per game of a player and the score without it, each with its interval."""
     found = [(game, luck[game.pair, game.leg]) for game in games if (game.pair, game.leg) in luck]
     if not found:
         return None
-    lucks = [each.of(game.seat(name)) for game, each in found]
+    pairs = [(game.pair, game.players[1 - game.seat(name)]) for game, _ in found]
     return {
         "name": name,
         "games": len(found),
-        "score": _mean([game.points_of(name) for game, _ in found]),
-        "luck": _mean(lucks),
-        "corrected": _mean([each.corrected(game.seat(name)) for game, each in found]),
+        **_interval("score", mean_of([game.points_of(name) for game, _ in found], pairs)),
+        **_interval("luck", mean_of([each.of(game.seat(name)) for game, each in found], pairs)),
+        **_interval("corrected", mean_of([each.corrected(game.seat(name)) for game, each in found], pairs)),
     }
 
 
-def _mean(values: Sequence[float]) -> float:
-    return sum(values) / len(values)
+def _interval(name: str, mean: Mean) -> Data:
+    return {name: mean.value, f"{name}_low": mean.low, f"{name}_high": mean.high, "pairs": mean.pairs}
 
 
 def _in_order(event: Tournament) -> Iterable[GameResult]:

@@ -149,16 +149,54 @@ def _ratings(data: Data) -> str:
     ratings = data["ratings"]
     if not data["games"]:
         return _note("No games yet.")
-    shown = [Whisker(one["name"], one["elo"], one["low"], one["high"]) for one in ratings[:MOST_ROWS]]
-    plot = dots(
-        "ratings", "Ratings", "A dot for each rating, a whisker for its 95 % interval.", shown, "Elo above the mean"
+    if not ratings:
+        return _note("Nobody is rated by an event whose racks and noise could be foreseen.")
+    shown = [Whisker(one["name"], *(one[key] for key in _INTERVALS)) for one in ratings[:MOST_ROWS]]
+    about = "A dot for each rating, a whisker for its marginal 95 % interval, a thin one for the simultaneous interval."
+    scores = {one["name"]: _score(one) for one in data["scores"]}
+    rows = [
+        (
+            one["name"],
+            *(f"{one[key]:+.0f}" for key in _INTERVALS),
+            f"{one['best_rank']} to {one['worst_rank']}",
+            one["games"],
+            *scores[one["name"]],
+        )
+        for one in ratings
+    ]
+    heads = ("Name", "Elo", "from", "to", "all: from", "to", "Rank", "Games", "Share of points", "from", "to", "Pairs")
+    caption = (
+        "Bradley-Terry ratings, and each entrant's share of the points. The first interval is marginal: with 95 % "
+        "confidence it holds this entrant's true rating, and of many such intervals some miss. Those under 'all' are "
+        "simultaneous: with 95 % confidence every one of them holds. So are the ranks."
     )
-    rows = [(one["name"], *(f"{one[key]:+.0f}" for key in ("elo", "low", "high")), one["games"]) for one in ratings]
-    scores = {one["name"]: one for one in data["scores"]}
-    more = [(*row, *_score(scores[row[0]])) for row in rows]
-    heads = ("Name", "Elo", "from", "to", "Games", "Share of points", "from", "to", "Pairs")
-    about = "Bradley-Terry ratings over the whole table with 95 % intervals, and each entrant's share of the points"
-    return _figure(plot, "Ratings with 95 % intervals") + table(about, heads, more)
+    plot = dots("ratings", "Ratings", about, shown, "Elo above the mean")
+    return _figure(plot, about) + table(caption, heads, rows) + _dispersion(data)
+
+
+_INTERVALS = ("elo", "low", "high", "simultaneous_low", "simultaneous_high")
+
+
+def _dispersion(data: Data) -> str:
+    factor, check = data["dispersion"], data["bootstrap_dispersion"]
+    words = f"Points of pairs vary {factor:.2f} times as much as those of two independent games without draws would."
+    if check is not None:
+        words += (
+            f" A bootstrap over pairs, as a check, says {check:.2f}: were it far off, one factor would not do for all, "
+            "and some intervals would be too narrow."
+        )
+    return _note(words)
+
+
+def _superiority(data: Data) -> str:
+    if not data["games"] or not data["superiority"]["names"]:
+        return ""
+    names, rows = data["superiority"]["names"][:MOST_ROWS], data["superiority"]["likelihoods"][:MOST_ROWS]
+    cells = [
+        (name, *("" if at == place else f"{100.0 * likelihood:.1f}" for at, likelihood in enumerate(row[:MOST_ROWS])))
+        for place, (name, row) in enumerate(zip(names, rows, strict=True))
+    ]
+    return table("Likelihood in per cent that the row's entrant is stronger than the column's", ("Name", *names), cells)
 
 
 def _score(score: Data) -> tuple[str, str, str, int]:
@@ -265,16 +303,24 @@ def _luck(data: Data) -> str:
     if not data["luck"]:
         return ""
     rows = [
-        (one["name"], one["games"], f"{one['score']:.3f}", f"{one['luck']:+.3f}", f"{one['corrected']:.3f}")
+        (one["name"], one["games"], one["pairs"], *(_three(one[key]) for name in _LUCK for key in name))
         for one in data["luck"]
     ]
     about = (
         "Luck of a stroke is the value of its outcome less the mean value over fresh noise draws of the same intended "
         "shot, the value function fixed before the event. Its mean is zero, so the share without luck estimates the "
-        "same, with less noise."
+        "same, with less noise. Intervals are Student's, of 95 % confidence, over pairs of games, from two pairs that "
+        "differ."
     )
-    heads = ("Name", "Games", "Share of points", "of it luck", "without luck")
-    return table("Luck a game, in points", heads, rows) + _note(about)
+    heads = ("Name", "Games", "Pairs", "Share of points", "from", "to", "of it luck", "from", "to", "without luck")
+    return table("Luck a game, in points", (*heads, "from", "to"), rows) + _note(about)
+
+
+_LUCK = tuple((name, f"{name}_low", f"{name}_high") for name in ("score", "luck", "corrected"))
+
+
+def _three(value: float | None) -> str:
+    return "–" if value is None else f"{value:.3f}"
 
 
 def _ends(data: Data) -> str:
@@ -315,6 +361,7 @@ Sections = Sequence[tuple[str, Callable[[Data], str]]]
 
 _SHARED: Sections = (
     ("Ratings", _ratings),
+    ("Superiority", _superiority),
     ("Cross table", _cross),
     ("Score against noise", _noise),
     ("Fouls", _fouls),

@@ -20,12 +20,14 @@ COLOURS = 8
 
 @dataclass(frozen=True, slots=True)
 class Whisker:
-    """A row of a dot plot: a value and its interval."""
+    """A row of a dot plot: a value, its interval, and a wider one."""
 
     label: str
     value: float
     low: float
     high: float
+    least: float
+    most: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +39,7 @@ class Line:
 
 
 def dots(identity: str, title: str, about: str, rows: Sequence[Whisker], unit: str, zero: float | None = 0.0) -> str:
-    """A dot and a whisker for each row, top down.
+    """A dot, a whisker and a longer thin one for each row, top down.
 
     Args:
         identity: unique in the page.
@@ -46,7 +48,7 @@ def dots(identity: str, title: str, about: str, rows: Sequence[Whisker], unit: s
         unit: under the axis.
         zero: a line to compare with.
     """
-    marks = [one for row in rows for one in (row.low, row.high)] + ([] if zero is None else [zero])
+    marks = [one for row in rows for one in (row.least, row.most)] + ([] if zero is None else [zero])
     scale = _Scale(min(marks), max(marks), LABEL, WIDTH - MARGIN)
     height = ROW * len(rows) + 50
     parts = [_axis(scale, height - 40, unit, top=6.0)]
@@ -55,7 +57,8 @@ def dots(identity: str, title: str, about: str, rows: Sequence[Whisker], unit: s
     for index, row in enumerate(rows):
         y = ROW * index + 20
         parts.append(f'<text x="{LABEL - 12}" y="{y + 4}" text-anchor="end">{escape(_cut(row.label))}</text>')
-        parts.append(f'<line class="whisker" x1="{scale(row.low)}" x2="{scale(row.high)}" y1="{y}" y2="{y}"/>')
+        for kind, low, high in (("whisker thin", row.least, row.most), ("whisker", row.low, row.high)):
+            parts.append(f'<line class="{kind}" x1="{scale(low)}" x2="{scale(high)}" y1="{y}" y2="{y}"/>')
         parts.append(f'<circle class="c0" cx="{scale(row.value)}" cy="{y}" r="5"/>')
     return _image(identity, title, about, height, parts)
 

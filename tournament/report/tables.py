@@ -39,7 +39,7 @@ def read_json_lines(lines: Iterable[str]) -> Iterator[GameResult]:
         except InvalidResult as error:
             raise InvalidResult(f"line {number}, {error.field}", error.value, error.allowed) from None
         except (ValueError, RecursionError) as error:
-            raise InvalidResult(f"line {number}", line[:60], f"JSON: {error}") from None
+            raise InvalidResult(f"line {number}", line[:60], f"must be JSON: {error}") from None
 
 
 def csv_text(results: Iterable[GameResult]) -> str:

@@ -7,9 +7,15 @@ factor for the whole table, estimated from the residuals (quasi-likelihood: Wedd
 
 The prior: everybody has also played one drawn game against an average player. It keeps 200-0 finite and joins tables
 that fall apart.
+
+Intervals are Student's. A marginal one holds its own true rating with 95 % confidence; of many, some miss. The
+simultaneous ones hold all true ratings at once with 95 % confidence, and so do the intervals of ranks, which follow
+from the differences between all ratings (Mogstad, Romano, Shaikh & Wilhelm, Review of Economic Studies 91, 2024,
+476-518). Both quantiles are Sidak's (JASA 62, 1967, 626-633): valid however the estimates depend on each other.
 """
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,8 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tournament.results import GameResult
-from tournament.statistics.normal import normal_cdf, student_quantile
+from tournament.statistics.student import sidak_quantile, student_cdf
 
+CONFIDENCE = 0.95
 ELO_PER_UNIT = 400.0 / math.log(10.0)
 """Elo points of one unit of r."""
 PRIOR_GAMES = 1.0
@@ -39,7 +46,10 @@ class Rating:
     """An entrant's rating, in Elo points above the mean of the table.
 
     Attributes:
-        name: of the entrant; elo: rating; low, high: its interval of 95 % confidence; games: counted.
+        name: of the entrant; elo: rating; games: counted.
+        low, high: marginal interval of 95 % confidence: for this rating by itself.
+        simultaneous_low, simultaneous_high: intervals that hold all true ratings of the table at once with 95 %.
+        best_rank, worst_rank: intervals that hold all true ranks of the table at once with 95 %; 1 is the strongest.
     """
 
     name: str
@@ -47,6 +57,10 @@ class Rating:
     low: float
     high: float
     games: int
+    simultaneous_low: float
+    simultaneous_high: float
+    best_rank: int
+    worst_rank: int
 
     def to_dict(self) -> dict[str, Any]:
         """JSON form."""
@@ -62,6 +76,8 @@ class Ratings:
         names: in the order of ``elo`` and ``covariance``.
         elo: (n,), mean 0. covariance: (n, n), Elo^2.
         dispersion: variance of a pair's points relative to two independent games.
+        bootstrap_dispersion: the same from a bootstrap over pairs, as a check; None for fewer pairs than entrants.
+        dof: degrees of freedom of the intervals.
     """
 
     table: tuple[Rating, ...]
@@ -69,19 +85,23 @@ class Ratings:
     elo: Floats
     covariance: Floats
     dispersion: float
+    bootstrap_dispersion: float | None
+    dof: float
 
     def superiority(self, one: str, other: str) -> float:
         """Likelihood that ``one`` is stronger than ``other``; ``ValueError`` for an unknown name."""
         i, j = self.names.index(one), self.names.index(other)
-        if i == j:
-            return 0.5
-        variance = self.covariance[i, i] + self.covariance[j, j] - 2.0 * self.covariance[i, j]
-        return normal_cdf(float(self.elo[i] - self.elo[j]) / math.sqrt(float(variance)))
+        return float(self.superiorities()[i, j])
+
+    def superiorities(self) -> Floats:
+        """(n, n): likelihood that the entrant of the row is stronger than that of the column; 1/2 on the diagonal."""
+        likelihoods: Floats = student_cdf(_gaps(self.elo, self.covariance), self.dof)
+        return likelihoods
 
 
 @dataclass(frozen=True, slots=True)
 class _Pairs:
-    """Pairs as arrays: who met whom, games, points of the first."""
+    """Pairs of games as arrays, in the order of their ids: who met whom, games, points of the first."""
 
     first: NDArray[np.intp]
     second: NDArray[np.intp]
@@ -96,22 +116,24 @@ def rate(games: Iterable[GameResult], names: Sequence[str] = ()) -> Ratings:
     """
     counted = [game for game in games if game.counts]
     everybody = tuple(dict.fromkeys([*names, *(name for game in counted for name in game.players)]))
-    pairs = _pairs(counted, everybody)
+    pairs = _pairs_of(counted, everybody)
     strengths = _fit(pairs, len(everybody))
     return _ratings(everybody, counted, pairs, strengths)
 
 
-def _pairs(games: Sequence[GameResult], names: Sequence[str]) -> _Pairs:
+def _pairs_of(games: Sequence[GameResult], names: Sequence[str]) -> _Pairs:
+    """The pairs of these games, all of which count, among players with these names."""
     place = {name: index for index, name in enumerate(names)}
-    rows: dict[tuple[str, int, int], list[float]] = {}
+    points_of: dict[tuple[str, int, int], list[float]] = {}
     for game in games:
         one, other = sorted(place[name] for name in game.players)
-        rows.setdefault((game.pair, one, other), []).append(game.points_of(names[one]))
+        points_of.setdefault((game.pair, one, other), []).append(game.points_of(names[one]))
+    rows = sorted(points_of.items())
     return _Pairs(
-        np.array([one for _, one, _ in rows], dtype=np.intp),
-        np.array([other for _, _, other in rows], dtype=np.intp),
-        np.array([len(points) for points in rows.values()], dtype=np.float64),
-        np.array([sum(points) for points in rows.values()], dtype=np.float64),
+        np.array([one for (_, one, _), _ in rows], dtype=np.intp),
+        np.array([other for (_, _, other), _ in rows], dtype=np.intp),
+        np.array([len(points) for _, points in rows], dtype=np.float64),
+        np.array([sum(points) for _, points in rows], dtype=np.float64),
     )
 
 
@@ -149,15 +171,19 @@ def _slope(pairs: _Pairs, r: Floats) -> Floats:
     return slope
 
 
-def _information(pairs: _Pairs, r: Floats) -> Floats:
-    share = _expected(pairs, r)
-    weight = pairs.games * share * (1.0 - share)
-    mine = _logistic(r)
-    matrix = np.diag(PRIOR_GAMES * mine * (1.0 - mine))
-    np.add.at(matrix, (pairs.first, pairs.first), weight)
-    np.add.at(matrix, (pairs.second, pairs.second), weight)
-    np.add.at(matrix, (pairs.first, pairs.second), -weight)
-    np.add.at(matrix, (pairs.second, pairs.first), -weight)
+def _information(pairs: _Pairs, r: Floats, prior: float = PRIOR_GAMES) -> Floats:
+    """(n, n): the negative curvature of the log-likelihood and of the prior."""
+    share, mine = _expected(pairs, r), _logistic(r)
+    return _laplacian(pairs, pairs.games * share * (1.0 - share), len(r)) + np.diag(prior * mine * (1.0 - mine))
+
+
+def _laplacian(pairs: _Pairs, weights: Floats, n: int) -> Floats:
+    """(n, n): sum over the pairs of weight x x', where x is 1 for the first player and -1 for the second."""
+    matrix = np.zeros((n, n))
+    np.add.at(matrix, (pairs.first, pairs.first), weights)
+    np.add.at(matrix, (pairs.second, pairs.second), weights)
+    np.add.at(matrix, (pairs.first, pairs.second), -weights)
+    np.add.at(matrix, (pairs.second, pairs.first), -weights)
     return matrix
 
 
@@ -167,32 +193,65 @@ def _logistic(x: Floats) -> Floats:
     return value
 
 
-def _dispersion(pairs: _Pairs, r: Floats) -> float:
-    """How much more than binomial the points of pairs vary; 1 without evidence.
+def _freed(pairs: _Pairs, n: int) -> float:
+    """By what squared residuals grow, since n - 1 fitted ratings have made them smaller than deviations."""
+    used = min(n, len(pairs.games)) - 1
+    return len(pairs.games) / (len(pairs.games) - used) if used > 0 else 1.0
 
-    Residuals are smaller than deviations by the parameters fitted to them: n - 1 of the pairs go for that.
-    """
+
+def _dispersion(pairs: _Pairs, r: Floats) -> float:
+    """How much more than binomial the points of pairs vary; 1 without evidence."""
     share = _expected(pairs, r)
     variance = float((pairs.games * share * (1.0 - share)).sum())
     residual = float(((pairs.points - pairs.games * share) ** 2).sum())
-    used = min(len(r) - 1, len(pairs.games) - 1)
-    freed = len(pairs.games) / (len(pairs.games) - used) if used > 0 else 1.0
-    return (PRIOR_VARIANCE + residual * freed) / (PRIOR_VARIANCE + variance)
+    return (PRIOR_VARIANCE + residual * _freed(pairs, len(r))) / (PRIOR_VARIANCE + variance)
+
+
+def _bootstrap_dispersion(pairs: _Pairs, r: Floats) -> float | None:
+    """How far ratings scatter when pairs are drawn again from those played, against two independent games a pair.
+
+    The limit of infinitely many replications, to first order (the infinitesimal jackknife: Efron, Biometrika 68, 1981,
+    589-599): each pair moves the ratings by its residual times the inverse of the information. Where pairs of some
+    players vary more than those of others, one factor for all is wrong, and this one differs from it.
+    """
+    n = len(r)
+    if len(pairs.games) < max(2, n):
+        return None
+    centre = np.eye(n) - 1.0 / n
+    moved = centre @ np.linalg.inv(_information(pairs, r))
+    residual = pairs.points - pairs.games * _expected(pairs, r)
+    seen = moved @ _laplacian(pairs, residual**2, n) @ moved.T
+    independent = moved @ _information(pairs, r, prior=0.0) @ moved.T
+    return float(np.trace(seen) / np.trace(independent)) * _freed(pairs, n)
 
 
 def _ratings(names: tuple[str, ...], games: Sequence[GameResult], pairs: _Pairs, r: Floats) -> Ratings:
     n = len(names)
-    dispersion = _dispersion(pairs, r)
+    dispersion, again = _dispersion(pairs, r), _bootstrap_dispersion(pairs, r)
+    dof = max(1.0, len(pairs.games) - n + 1.0)
     centre = np.eye(n) - 1.0 / n if n else np.eye(0)
     covariance = dispersion * ELO_PER_UNIT**2 * centre @ np.linalg.inv(_information(pairs, r)) @ centre
     elo = ELO_PER_UNIT * (r - r.mean()) if n else r
-    t = student_quantile(0.975, max(1.0, len(pairs.games) - n + 1.0))
-    played = dict.fromkeys(names, 0)
-    for game in games:
-        for name in game.players:
-            played[name] += 1
+    apart = _gaps(elo, covariance) > sidak_quantile(CONFIDENCE, n * (n - 1) // 2, dof)
+    played = Counter(name for game in games for name in game.players)
+    spread = np.sqrt(np.diag(covariance))
+    columns = np.array(
+        [elo + times * sidak_quantile(CONFIDENCE, among, dof) * spread for among in (1, n) for times in (-1.0, 1.0)]
+    ).T.tolist()
+    ranks = zip((1 + apart.sum(axis=0)).tolist(), (n - apart.sum(axis=1)).tolist(), strict=True)
     table = [
-        Rating(name, float(elo[i]), float(elo[i] - t * spread), float(elo[i] + t * spread), played[name])
-        for i, (name, spread) in enumerate(zip(names, np.sqrt(np.diag(covariance)).tolist(), strict=True))
+        Rating(name, float(elo[i]), low, high, played[name], all_low, all_high, best, worst)
+        for i, (name, (low, high, all_low, all_high), (best, worst)) in enumerate(
+            zip(names, columns, ranks, strict=True)
+        )
     ]
-    return Ratings(tuple(sorted(table, key=lambda one: -one.elo)), names, elo, covariance, dispersion)
+    return Ratings(tuple(sorted(table, key=lambda one: -one.elo)), names, elo, covariance, dispersion, again, dof)
+
+
+def _gaps(elo: Floats, covariance: Floats) -> Floats:
+    """(n, n): differences of ratings, row less column, in standard deviations; 0 on the diagonal."""
+    own = np.diag(covariance)
+    variance = own[:, None] + own - 2.0 * covariance
+    np.fill_diagonal(variance, 1.0)
+    gaps: Floats = (elo[:, None] - elo) / np.sqrt(variance)
+    return gaps

@@ -20,17 +20,19 @@ from numpy.typing import NDArray
 from tournament.statistics.likelihood import CELL_SCORES, EMPTY_CELL, mean_score
 
 MOST_PAIRS = 12
-"""1,820 outcomes; an interval takes some hundredths of a second. Beyond, the limiting distribution is as good."""
+"""1,820 outcomes; an interval takes some milliseconds. Beyond, the limiting distribution is as good."""
 
 Floats = NDArray[np.float64]
 
+_CELLS = np.array(CELL_SCORES)[:, None]
 _STEPS = 100
 """Scores looked at before the bounds are refined: 1/100 to 99/100, a half among them."""
 _HALVINGS = 8
 """A bound within 4e-5."""
 _SAME = 1e-7
 """Ratios that differ by less are equal."""
-_ROUNDS, _PRECISION = 100, 1e-12
+_ROUNDS, _PRECISION = 100, 1e-2
+"""Newton's last step squares the error in the tilt, and a shortfall, the greatest of all tilts', errs by its square."""
 
 
 @dataclass(frozen=True)
@@ -38,20 +40,35 @@ class _Outcomes:
     """All that n pairs can come to.
 
     Attributes:
-        counts: (m, 5). log_ways: (m,), logarithm of the number of orders that lead to each.
-        shortfalls: (99, m), by how much the likelihood of each falls short of its greatest at 1/100 … 99/100.
+        counts: (5, m). log_ways: (m,), logarithm of the number of orders that lead to each.
+        place: counts to their column.
+        tilts, shortfalls: (99, m), of each under the mean scores 1/100 … 99/100 (``tournament.statistics.likelihood``).
     """
 
     counts: Floats
     log_ways: Floats
+    place: dict[tuple[int, ...], int]
+    tilts: Floats
     shortfalls: Floats
+
+    def significance(self, counts: Sequence[int], tilts: Floats, shortfalls: Floats) -> float:
+        """Chance of what speaks louder against a score than these counts, and half of that of what speaks as loudly.
+
+        Args:
+            counts: the outcome seen. tilts, shortfalls: (m,), of every outcome under the score.
+        """
+        place = self.place[tuple(counts)]
+        nearest = np.maximum(self.counts[:, [place]], EMPTY_CELL) / (1.0 - _CELLS + _CELLS * math.exp(tilts[place]))
+        chances = np.exp(self.log_ways + np.log(nearest / nearest.sum())[:, 0] @ self.counts)
+        above = shortfalls - shortfalls[place]
+        return float(chances[above > _SAME].sum() + 0.5 * chances[np.abs(above) <= _SAME].sum())
 
 
 def bounds(counts: Sequence[int], confidence: float) -> tuple[float, float]:
     """The least and the greatest score that 2 to ``MOST_PAIRS`` pairs do not contradict."""
     mean, allowed = mean_score(counts), 1.0 - confidence
-    fits = [score for score, p in zip(_grid().tolist(), _along(counts).tolist(), strict=True) if p >= allowed]
-    low, high = min([mean, *fits]), max([mean, *fits])
+    fits = (1 + np.flatnonzero(_along(tuple(counts)) >= allowed)) / _STEPS
+    low, high = min([mean, *fits.tolist()]), max([mean, *fits.tolist()])
     step = 1.0 / _STEPS
     return _refined(counts, allowed, low, max(0.0, low - step)), _refined(counts, allowed, high, min(1.0, high + step))
 
@@ -61,7 +78,7 @@ def superiority(counts: Sequence[int]) -> float:
 
     Above 97.5 % exactly when no score up to a half is in the interval of 95 %.
     """
-    mean, p = mean_score(counts), _along(counts)
+    mean, p = mean_score(counts), _along(tuple(counts))
     if mean == 0.5:
         return 0.5
     half = _STEPS // 2
@@ -72,24 +89,23 @@ def superiority(counts: Sequence[int]) -> float:
 def significance(counts: Sequence[int], score: float) -> float:
     """Chance of an outcome that speaks against the score in (0, 1) as loudly as this one, which counts half."""
     every = _outcomes(sum(counts))
-    return float(_significance(every, counts, np.array([score]), _shortfalls(every.counts, np.array([score])))[0])
+    row = min(max(round(score * _STEPS), 1), _STEPS - 1) - 1
+    tilts = _tilts(every.counts, score, every.tilts[row])
+    return every.significance(counts, tilts, _shortfalls(every.counts, score, tilts))
 
 
 def every_outcome(pairs: int, score: float) -> tuple[Floats, Floats, Floats]:
     """What so many pairs can come to: counts (m, 5), logarithms of their numbers of orders (m,), shortfalls (m,)."""
     every = _outcomes(pairs)
-    return every.counts, every.log_ways, _shortfalls(every.counts, np.array([score]))[0]
+    return every.counts.T, every.log_ways, _shortfalls(every.counts, score, _tilts(every.counts, score))
 
 
 @lru_cache(maxsize=4096)
-def _kept(counts: tuple[int, ...]) -> Floats:
-    every = _outcomes(sum(counts))
-    return _significance(every, counts, _grid(), every.shortfalls)
-
-
-def _along(counts: Sequence[int]) -> Floats:
+def _along(counts: tuple[int, ...]) -> Floats:
     """The significance at 1/100 … 99/100."""
-    return _kept(tuple(counts))
+    every = _outcomes(sum(counts))
+    rows = zip(every.tilts, every.shortfalls, strict=True)
+    return np.array([every.significance(counts, *row) for row in rows])
 
 
 def _refined(counts: Sequence[int], allowed: float, inside: float, outside: float) -> float:
@@ -105,62 +121,49 @@ def _refined(counts: Sequence[int], allowed: float, inside: float, outside: floa
     return inside
 
 
-def _significance(every: _Outcomes, counts: Sequence[int], scores: Floats, shortfalls: Floats) -> Floats:
-    """For each score: the chance of what speaks louder, and half of that of what speaks as loudly.
-
-    Args:
-        scores: (k,). shortfalls: (k, m), of every outcome at each of them.
-    """
-    weights = np.maximum(np.array(counts, dtype=np.float64), EMPTY_CELL)
-    away = np.array(CELL_SCORES) - scores[:, None]
-    slack = 1.0 + _multipliers(weights, scores)[:, None] * away
-    mine = (weights * np.log(slack)).sum(axis=1)[:, None]
-    nearest = weights / slack
-    nearest /= nearest.sum(axis=1, keepdims=True)
-    chances = np.exp(every.log_ways + np.log(nearest) @ every.counts.T)
-    louder = (chances * (shortfalls > mine + _SAME)).sum(axis=1)
-    equal = (chances * (np.abs(shortfalls - mine) <= _SAME)).sum(axis=1)
-    found: Floats = louder + 0.5 * equal
-    return found
-
-
 @lru_cache(maxsize=MOST_PAIRS)
 def _outcomes(n: int) -> _Outcomes:
     """The outcomes of n pairs: where four bars can stand between n stars."""
     last = len(CELL_SCORES) - 1
     bars = [(-1, *places, n + last) for places in combinations(range(n + last), last)]
-    counts = np.diff(np.array(bars, dtype=np.float64), axis=1) - 1.0
+    counts = np.diff(np.array(bars), axis=1) - 1
     log_factorials = np.array([math.lgamma(k + 1.0) for k in range(n + 1)])
-    log_ways = log_factorials[n] - log_factorials[counts.astype(np.intp)].sum(axis=1)
-    return _Outcomes(counts, log_ways, _shortfalls(counts, _grid()))
+    log_ways = log_factorials[n] - log_factorials[counts].sum(axis=1)
+    place = {tuple(row): index for index, row in enumerate(counts.tolist())}
+    counts, tilts, shortfalls = counts.T.astype(np.float64), list[Floats](), list[Floats]()
+    for step in range(1, _STEPS):  # each score's tilts are near those of the one before
+        tilts.append(_tilts(counts, step / _STEPS, tilts[-1] if tilts else None))
+        shortfalls.append(_shortfalls(counts, step / _STEPS, tilts[-1]))
+    return _Outcomes(counts, log_ways, place, np.array(tilts), np.array(shortfalls))
 
 
-def _grid() -> Floats:
-    return np.arange(1, _STEPS) / _STEPS
-
-
-def _shortfalls(counts: Floats, scores: Floats) -> Floats:
-    """(k, m): how far the likelihood of each of m outcomes falls short at each of k scores."""
-    weights = np.maximum(counts, EMPTY_CELL)
-    away = (np.array(CELL_SCORES) - scores[:, None])[:, None, :]
-    slack = 1.0 + _multipliers(weights, scores[:, None])[..., None] * away
-    found: Floats = (weights * np.log(slack)).sum(axis=-1)
+def _shortfalls(counts: Floats, score: float, tilts: Floats) -> Floats:
+    """(m,): by how much the likelihood of each outcome falls short: sum w_i log(d_i / (1 - s + s e^u))."""
+    weights, power = np.maximum(counts, EMPTY_CELL), np.exp(tilts)
+    slack = (1.0 - _CELLS + _CELLS * power) / (1.0 - score + score * power)
+    found: Floats = (weights * np.log(slack)).sum(axis=0)
     return found
 
 
-def _multipliers(weights: Floats, scores: Floats) -> Floats:
-    """The Lagrange multipliers of ``tournament.statistics.likelihood``, for many weights and scores at once."""
-    away = np.array(CELL_SCORES) - scores[..., None]
-    low, high = np.broadcast_arrays(-1.0 / away[..., -1], -1.0 / away[..., 0])
-    x = np.zeros(np.broadcast_shapes(weights.shape[:-1], scores.shape))
-    low, high = np.broadcast_to(low, x.shape), np.broadcast_to(high, x.shape)
+def _tilts(counts: Floats, score: float, start: Floats | None = None) -> Floats:
+    """(m,): the tilt of each outcome under a score in (0, 1), by Newton's method within the bracket of ``profile``.
+
+    All at once: a general root finder, asked 100,000 times, would take seconds.
+    """
+    weights, odds = np.maximum(counts, EMPTY_CELL), math.log(score / (1.0 - score))
+    n, sides = weights.sum(axis=0), np.hstack([_CELLS, 1.0 - _CELLS]).T
+    low, high = np.log(weights[-1] / (n - weights[-1])) - odds, np.log((n - weights[0]) / weights[0]) - odds
+    x = 0.5 * (low + high) if start is None else np.clip(start, low, high)
     for _ in range(_ROUNDS):
-        shares = away / (1.0 + x[..., None] * away)
-        value, slope = (weights * shares).sum(axis=-1), (weights * shares * shares).sum(axis=-1)
+        power = _CELLS * np.exp(x)
+        slack = 1.0 - _CELLS + power
+        chances = weights / slack
+        (won, lost), (less_won, less_lost) = sides @ chances, sides @ (chances * power / slack)
+        value, slope = np.log(won / lost) - odds, less_lost / lost - less_won / won
         low, high = np.where(value > 0.0, x, low), np.where(value > 0.0, high, x)
-        following = x + value / slope
-        following = np.where((low < following) & (following < high), following, 0.5 * (low + high))
-        moved, x = np.abs(following - x) > _PRECISION * (high - low), following
-        if not moved.any():
+        following = x - value / slope
+        following = np.where((low <= following) & (following <= high), following, 0.5 * (low + high))
+        moved, x = np.abs(following - x).max(), following
+        if moved < _PRECISION:
             break
     return x

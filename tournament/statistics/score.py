@@ -9,8 +9,8 @@ from typing import Any
 from tournament.results import GameResult
 from tournament.statistics import few_pairs
 from tournament.statistics.elo import elo_of
-from tournament.statistics.likelihood import CELL_SCORES, mean_score, profile, regularised
-from tournament.statistics.normal import student_cdf, student_quantile
+from tournament.statistics.likelihood import CELL_SCORES, bound, mean_score, profile, regularised
+from tournament.statistics.student import sidak_quantile, student_cdf
 
 CONFIDENCE = 0.95
 
@@ -105,7 +105,9 @@ def score_interval(counts: Sequence[int], confidence: float = CONFIDENCE) -> tup
     if n <= few_pairs.MOST_PAIRS:
         return few_pairs.bounds(counts, confidence)
     threshold, weights, mean = _threshold(n, confidence), regularised(counts), mean_score(counts)
-    return _bound(weights, threshold, mean, 0.0), _bound(weights, threshold, mean, 1.0)
+    if mean in (0.0, 1.0):
+        return (mean, bound(weights, threshold, -1)) if mean == 0.0 else (bound(weights, threshold, 1), mean)
+    return min(mean, bound(weights, threshold, 1)), max(mean, bound(weights, threshold, -1))
 
 
 def is_contradicted(counts: Sequence[int], score: float, confidence: float = CONFIDENCE) -> bool:
@@ -120,7 +122,7 @@ def is_contradicted(counts: Sequence[int], score: float, confidence: float = CON
 @lru_cache(maxsize=1024)
 def _threshold(n: int, confidence: float) -> float:
     """How far the log-likelihood may fall."""
-    t = student_quantile(0.5 + confidence / 2.0, n - 1)
+    t = sidak_quantile(confidence, 1, n - 1)
     return 0.5 * n * math.log1p(t * t / (n - 1))
 
 
@@ -137,21 +139,7 @@ def superiority(counts: Sequence[int]) -> float:
         return few_pairs.superiority(counts)
     ratio = max(0.0, -2.0 * profile(regularised(counts), 0.5))
     t = math.sqrt((n - 1) * math.expm1(min(ratio / n, _LARGEST_EXPONENT)))
-    return student_cdf(math.copysign(t, mean_score(counts) - 0.5), n - 1)
+    return float(student_cdf(math.copysign(t, mean_score(counts) - 0.5), n - 1))
 
 
 _LARGEST_EXPONENT = 700.0
-_HALVINGS = 30
-"""A bound within 1e-9."""
-
-
-def _bound(weights: Sequence[float], threshold: float, mean: float, end: float) -> float:
-    """Where between the mean and an end of [0, 1] the likelihood falls to the threshold."""
-    inside, outside = mean, end
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (inside + outside)
-        if middle in (inside, outside):
-            break
-        fits = 0.0 < middle < 1.0 and -profile(weights, middle) <= threshold
-        inside, outside = (middle, outside) if fits else (inside, middle)
-    return inside

@@ -36,7 +36,7 @@ class SearchAgent(Agent):
 
     def __init__(self, seed: int | None = None, **options: Any) -> None:
         self._seed = seed
-        self._options = Options.of(options)
+        self._options = Options(**options)
         geometry()  # before any clock runs
         self._pace = Pace()
         self.thoughts: list[Thought] = []

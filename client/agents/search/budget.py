@@ -24,7 +24,7 @@ def allowance(options: Options, seconds_left: float | None, shots_left: int | No
         seconds_left: on the player's clock; None without one.
         shots_left: in the simulation budget of the game; None without one.
     """
-    seconds, shots = math.inf if options.shots else options.seconds, int(options.shots)
+    seconds, shots = math.inf if options.shots else options.seconds, options.shots
     if seconds_left is not None:
         seconds = min(seconds, max(LEAST_SECONDS, SHARE * (seconds_left - RESERVE)))
     if shots_left is not None:

@@ -72,7 +72,9 @@ def standings_view(context: Context, connection: Connection, row: Row[Any]) -> S
         tournament=row.id,
         status=row.status,
         standings=tuple(StandingView(**line.to_dict(), agent=row.agents[line.name]) for line in course.standings),
-        ratings=tuple(RatingView(**rating.to_dict()) for rating in ratings),
+        ratings=tuple(
+            RatingView(**{key: getattr(rating, key) for key in RatingView.model_fields}) for rating in ratings
+        ),
         test=None if test is None else SequentialTestView(**asdict(test)),
     )
 

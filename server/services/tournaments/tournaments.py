@@ -5,6 +5,7 @@ How an event stands follows from its terms and its entries alone, by the same co
 holds the match already, and nothing that holds an event's name then waits for a match that exists.
 """
 
+import re
 import secrets
 from collections.abc import Callable
 from typing import Any, Final
@@ -139,7 +140,8 @@ def _spec(request: TournamentRequest) -> Spec:
     try:
         spec = Spec.from_dict(terms)
     except TournamentError as error:
-        raise invalid_field(f"terms.{error.field}", error.value, error.allowed) from error
+        field = re.sub(r"\[(\d+)\]", r".\1", error.field)  # as everywhere on the wire
+        raise invalid_field(f"terms.{field}", error.value, error.allowed) from error
     _, games = games_of(spec)
     if games > MOST_GAMES:
         raise invalid_field("terms.pairs", spec.pairs, f"at most {MOST_GAMES} games in all; these terms make {games}")

@@ -36,7 +36,7 @@ EVENT = {"name": "cup", "entrants": ["random", "greedy"]}
 def test_an_agent_is_told_by_its_name(agent, kind, process):
     assert Hosting(agent).kind is kind
     assert Hosting(agent).as_process is process
-    assert Hosting.from_dict(agent, Hosting(agent).to_dict()) == Hosting(agent)
+    assert Hosting.from_dict(json.loads(json.dumps(Hosting(agent).to_dict()))) == Hosting(agent)
 
 
 @pytest.mark.parametrize(
@@ -59,7 +59,7 @@ def test_an_agent_is_told_by_its_name(agent, kind, process):
 )
 def test_what_cannot_be_is_named(agent, values, named):
     with pytest.raises(EventError, match=named):
-        Hosting.from_dict(agent, values)
+        Hosting.of(agent, values)
 
 
 @pytest.mark.parametrize(

@@ -161,7 +161,7 @@ def test_what_was_certain_stays_and_nothing_depends_on_the_order_of_completion(k
 def test_a_result_of_another_event_is_refused():
     event = Tournament(spec_of(2))
     other = Tournament(spec_of(4)).due[-1]
-    with pytest.raises(InvalidResult, match=r"pair = 'r2-m1-p0': a pair of this event"):
+    with pytest.raises(InvalidResult, match=r"pair = 'r2-m1-p0': must be a pair of this event"):
         _ = event.with_results(result_of(other, 0)).due
 
 

@@ -5,7 +5,9 @@ import io
 import json
 from html.parser import HTMLParser
 
+import numpy as np
 import pytest
+from scipy import stats
 from support.events import by_lot, play, result_of
 
 from tournament import Entrant, InvalidResult, NoisePlan, Spec, SprtTerms, Tournament
@@ -127,6 +129,16 @@ def test_terms_tell_neither_seed_nor_commands():
     assert "secret" not in data
 
 
+def test_an_event_that_rates_nobody_says_so_and_has_no_superiority():
+    data = event_report(nasty_event(), rated=False)
+    assert (data["ratings"], data["superiority"]["names"]) == ([], [])
+    html = page(data)
+    read(html)
+    assert "Nobody is rated" in html
+    assert "<h2>Superiority" not in html
+    assert "<h2>Superiority" in page(event_report(nasty_event()))
+
+
 @pytest.mark.parametrize("kind", ["round_robin", "swiss", "knockout", "gauntlet"])
 def test_an_event_before_its_first_game_has_a_page(kind):
     terms = {"format": kind, "rounds": 2 if kind == "swiss" else None}
@@ -157,7 +169,43 @@ def test_luck_is_shown_when_it_is_known():
     row = next(row for row in data["luck"] if row["name"] == game.players[0])
     assert row["luck"] == pytest.approx(0.2)
     assert row["corrected"] == pytest.approx(game.points[0] - 0.2)
+    assert (row["pairs"], row["corrected_low"]) == (1, None)
     assert "without luck" in page(data)
+
+
+def test_scores_without_luck_have_intervals_over_pairs():
+    """Two pairs of two games: scipy's t interval of the two means of pairs."""
+    event = play(Tournament(Spec("e", (Entrant("a"), Entrant("b")), pairs=2)), lambda due: due.pair.players.index("a"))
+    lucks = dict(zip([(game.pair, game.leg) for game in event.counted], (0.1, 0.3, -0.1, 0.2), strict=True))
+    luck = {
+        (game.pair, game.leg): GameLuck(
+            game.players,
+            1.0,
+            (StrokeLuck(0, game.seat("a"), 0.5 + lucks[game.pair, game.leg], 0.5, 0.0, 0.5),),
+            game.points,
+        )
+        for game in event.counted
+    }
+    data = event_report(event, luck)
+    row = next(row for row in data["luck"] if row["name"] == "a")
+    means = [1 - 0.2, 1 - 0.05]
+    expected = stats.t.interval(0.95, 1, np.mean(means), stats.sem(means))
+    assert (row["corrected"], row["pairs"]) == (pytest.approx(np.mean(means)), 2)
+    assert (row["corrected_low"], row["corrected_high"]) == pytest.approx(expected)
+    assert (row["luck_low"], row["luck_high"]) == pytest.approx((1 - expected[1], 1 - expected[0]))
+    assert row["score_low"] is None
+    assert f"{expected[0]:.3f}" in page(data)
+
+
+def test_superiority_and_both_kinds_of_intervals_are_told(report):
+    html, matrix = page(report), report["superiority"]
+    assert matrix["names"] == [one["name"] for one in report["ratings"]]
+    first = np.array(matrix["likelihoods"])
+    assert first.shape == (4, 4)
+    assert np.allclose(first + first.T, 1.0, atol=2e-4)
+    assert first[0, -1] >= 0.5
+    assert all(word in html for word in ("marginal", "simultaneous", "Rank", "bootstrap over pairs"))
+    assert f"{100 * first[0, 1]:.1f}" in html
 
 
 def test_a_thousand_entrants_still_fit():
@@ -174,7 +222,12 @@ def test_results_survive_json_lines():
 
 
 @pytest.mark.parametrize(
-    ("line", "words"), [("{", "line 2"), ("3", "line 2, result = 3"), ('{"leg": 1}', "line 2, result")]
+    ("line", "words"),
+    [
+        ("{", "line 2"),
+        ("3", "line 2, result = 3: must be an object"),
+        ('{"leg": 1}', "line 2, pair = None: must be given"),
+    ],
 )
 def test_a_broken_line_is_named(line, words):
     good = next(json_lines(nasty_event().results))

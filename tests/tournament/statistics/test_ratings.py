@@ -1,12 +1,13 @@
 """Ratings of a table against scipy's optimum, and what they promise (docs/tournaments.md, "Ratings")."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy import optimize
+from scipy import optimize, stats
 from support.events import by_lot, play, spec_of
 
 from tournament import GameResult, Tournament
@@ -64,6 +65,83 @@ def test_nothing_is_ever_infinite(rows):
         assert rating.low < rating.elo < rating.high or len(ratings.table) == 1
     assert math.isfinite(ratings.dispersion)
     assert ratings.dispersion > 0
+
+
+@given(tables)
+@settings(deadline=None, max_examples=50)
+def test_intervals_of_all_hold_those_of_each_and_ranks_hold_the_order(rows):
+    """Simultaneous intervals are wider; whoever is told apart from nobody may have any rank."""
+    ratings = rate(games_of(rows), names=["nobody"])
+    n = len(ratings.table)
+    for place, rating in enumerate(ratings.table, start=1):
+        assert rating.simultaneous_low <= rating.low <= rating.high <= rating.simultaneous_high
+        assert 1 <= rating.best_rank <= place <= rating.worst_rank <= n
+    # Each entrant surely stronger makes one worse rank impossible for another: both sides count the same pairs.
+    assert sum(one.best_rank - 1 for one in ratings.table) == sum(n - one.worst_rank for one in ratings.table)
+
+
+def test_a_clear_order_has_clear_ranks():
+    """300 games each way of three: the differences are some eight standard errors, the ranks certain."""
+    rows = [("a", "b", 0), ("b", "c", 0), ("a", "c", 0), ("a", "b", 0), ("b", "c", 0), ("a", "c", 1)] * 50
+    ranks = {one.name: (one.best_rank, one.worst_rank) for one in rate(games_of(rows)).table}
+    assert ranks == {"a": (1, 1), "b": (2, 2), "c": (3, 3)}
+
+
+def test_the_simultaneous_quantile_is_sidaks():
+    """Ten pairs, nine degrees of freedom: both intervals by scipy's quantiles."""
+    rows = [("a", "b", 0), ("a", "b", 1), ("a", "b", 0), ("a", "b", 0)] * 5
+    ratings = rate(games_of(rows))
+    first = ratings.table[0]
+    alone, together = (stats.t.ppf(0.5 + 0.5 * 0.95 ** (1 / among), 10 - 1) for among in (1, 2))
+    assert ratings.dof == 9
+    assert (first.simultaneous_high - first.elo) / (first.high - first.elo) == pytest.approx(together / alone)
+
+
+@given(tables)
+@settings(deadline=None, max_examples=30)
+def test_superiorities_are_those_of_two_sides(rows):
+    ratings = rate(games_of(rows), names=["x", "y"])
+    matrix = ratings.superiorities()
+    assert np.allclose(matrix + matrix.T, 1.0)
+    assert np.allclose(np.diag(matrix), 0.5)
+    first, last = ratings.table[0].name, ratings.table[-1].name
+    assert ratings.superiority(first, last) >= 0.5
+    assert matrix[ratings.names.index(first), ratings.names.index(last)] == ratings.superiority(first, last)
+
+
+def drawn_again(games, names, chance):
+    """The ratings of as many pairs, drawn with replacement from those played."""
+    pairs = {}
+    for game in games:
+        pairs.setdefault(game.pair, []).append(game)
+    drawn = chance.choice(len(pairs), size=len(pairs))
+    fresh = [replace(game, pair=f"{place}") for place, at in enumerate(drawn) for game in list(pairs.values())[at]]
+    return rate(fresh, names).elo
+
+
+def test_the_bootstrap_of_the_dispersion_is_what_drawing_pairs_again_gives():
+    """Efron's bootstrap by lot, 150 replications: its scatter over that of the model is the factor."""
+    event = play(Tournament(spec_of(3, pairs=40)), by_lot(4))
+    ratings = rate(event.results)
+    chance = np.random.default_rng(5)
+    scatter = np.var([drawn_again(event.results, ratings.names, chance) for _ in range(150)], axis=0, ddof=1).sum()
+    found = scatter / np.trace(ratings.covariance) * ratings.dispersion
+    assert ratings.bootstrap_dispersion == pytest.approx(found, rel=0.25)
+
+
+def test_the_bootstrap_tells_when_one_factor_does_not_do_for_all():
+    """Drawn pairs that never vary between a and b, pairs that go all one way between c and d."""
+    calm = [("a", "b", 0), ("a", "b", 1)] * 60
+    wild = [("c", "d", winner) for winner in (0, 0, 1, 1) * 8] + [("a", "c", winner) for winner in (0, 0, 1, 1)]
+    ratings = rate(games_of(calm + wild))
+    assert ratings.bootstrap_dispersion > 1.3 * ratings.dispersion
+
+
+def test_the_order_of_results_changes_nothing():
+    """On one worker or many: not even the last bit of a report."""
+    event = play(Tournament(spec_of(4, pairs=5)), by_lot(8))
+    forth, back = (rate(results, "abcd") for results in (event.results, event.results[::-1]))
+    assert (forth.table, forth.bootstrap_dispersion) == (back.table, back.bootstrap_dispersion)
 
 
 @given(tables, st.permutations("abcdefgh"))

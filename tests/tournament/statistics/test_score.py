@@ -19,7 +19,6 @@ from tournament.statistics import (
     score_of_cells,
 )
 from tournament.statistics.few_pairs import MOST_PAIRS
-from tournament.statistics.normal import student_cdf, student_quantile
 
 cells = st.lists(st.integers(0, 300), min_size=5, max_size=5)
 
@@ -137,14 +136,6 @@ def test_a_game_without_its_partner_is_left_out_and_told():
     event = play(Tournament(spec_of(2, pairs=3)), lambda due: due.pair.players.index("a"))
     score = score_of(event.results[:-1], "a")
     assert (score.cells, score.unpaired) == ((0, 0, 0, 0, 2), 1)
-
-
-@pytest.mark.parametrize("dof", [1, 2, 3, 7, 30, 99, 5000])
-@pytest.mark.parametrize("p", [0.001, 0.3, 0.5, 0.9, 0.975, 0.9999])
-def test_student_is_that_of_scipy(p, dof):
-    t = stats.t.ppf(p, dof)
-    assert student_quantile(p, dof) == pytest.approx(t, rel=1e-9, abs=1e-9)
-    assert student_cdf(t, dof) == pytest.approx(p, abs=1e-12)
 
 
 @given(st.floats(-MOST_ELO + 1, MOST_ELO - 1))

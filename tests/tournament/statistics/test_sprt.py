@@ -106,10 +106,10 @@ def test_a_gap_in_the_order_of_pairs_waits():
 @pytest.mark.parametrize(
     ("terms", "words"),
     [
-        ({"elo0": 5.0, "elo1": 5.0}, "sprt.elo1 = 5.0: more than elo0 = 5"),
-        ({"alpha": 0.0}, "sprt.alpha = 0.0: a number in"),
-        ({"beta": math.nan}, "sprt.beta = nan: a number in"),
-        ({"elo1": "20"}, "sprt.elo1 = '20': a number in"),
+        ({"elo0": 5.0, "elo1": 5.0}, "sprt.elo1 = 5.0: must be more than elo0 = 5"),
+        ({"alpha": 0.0}, "sprt.alpha = 0.0: must be a number from 1e-06 to 0.4"),
+        ({"beta": math.nan}, "sprt.beta = nan: must be a number from 1e-06 to 0.4"),
+        ({"elo1": "20"}, "sprt.elo1 = '20': must be a number from -1000 to 1000"),
     ],
 )
 def test_terms_that_cannot_be_are_named(terms, words):
