@@ -36,7 +36,7 @@ class Retry:
 
     def __post_init__(self) -> None:
         if self.attempts < 1:
-            raise ValueError(f"attempts is {self.attempts}, must be at least 1")
+            raise ValueError(f"attempts = {self.attempts}: must be an integer of at least 1")
 
     def pause(self, failures: int, error: PooliadError) -> float | None:
         """Seconds to wait after the `failures`-th failure (1, 2, ...), or None when it is final."""

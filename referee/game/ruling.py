@@ -27,7 +27,7 @@ class Refusal:
     @property
     def words(self) -> str:
         """One line for a log."""
-        return f"{self.field} = {self.value!r} is refused ({self.rule}): {self.allowed}"
+        return f"{self.field} = {self.value!r}: must be {self.allowed} ({self.rule})"
 
     def to_dict(self) -> dict[str, Any]:
         """JSON form; numbers that JSON lacks (NaN, infinity) become strings."""
