@@ -163,11 +163,13 @@ def _run(table: Table, states: Floats, stroke: Floats, trace: bool) -> Result:
     outputs = final, np.empty((1, N_BALLS), np.int8), np.empty(1, np.int8), integers, facts
     entry, row, work = kernels().simulate_rows, parameters(table), workspace()
     rows = TRACE_ROWS if trace else 0
-    events = np.empty((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
+    events = (
+        np.zeros((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
+    )  # kernels leave the columns of no second ball alone
     entry(row, *work, states, stroke, *outputs, events, rows, NO_COUNTERS, 0, 1)
     n_events = int(integers[0, 1])
     if trace and n_events > rows:
-        events = np.empty((1, n_events * TRACE_WIDTH))
+        events = np.zeros((1, n_events * TRACE_WIDTH))
         entry(row, *work, states, stroke, *outputs, events, n_events, NO_COUNTERS, 0, 1)
     kept = events.reshape(-1, TRACE_WIDTH)[:n_events] if trace else None
     return Result(table, states, final, facts, kept, n_events)

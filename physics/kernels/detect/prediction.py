@@ -41,9 +41,7 @@ from physics.kernels.layout import (
     P_SIDE,
     PAIRS_LEFT,
     PARTNER,
-    ROLLING,
     SINCE,
-    SLIDING,
     SOLVES,
     TRANSITION,
     VX,
@@ -51,6 +49,7 @@ from physics.kernels.layout import (
     X,
     Y,
 )
+from physics.kernels.motion import moves
 from physics.kernels.resolve.cushion import EAST, NORTH, SOUTH, WEST
 from physics.kernels.tolerances import TOUCH
 
@@ -58,12 +57,6 @@ FOREVER = 1e6
 """s. The filter's horizon for a ball without an event of its own: finite, so that 0 m/s times it is 0 m."""
 
 POCKET_SW, POCKET_W, POCKET_NW, POCKET_NE, POCKET_E, POCKET_SE = 0, 1, 2, 3, 4, 5
-
-
-@small_kernel
-def moves(motion):
-    """Whether a ball in this motion state changes its place."""
-    return (motion == SLIDING) | (motion == ROLLING)
 
 
 @small_kernel

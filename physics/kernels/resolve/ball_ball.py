@@ -89,8 +89,8 @@ def collide(p, w, i, j, nx, ny, closing):
 def collide_historically(p, w, i, j, nx, ny, j_rests):
     """The law of FastFiz 0.2, faults included; ball i moves. Eq. 18-19.
 
-    ``j_rests`` (0 or 1): ball j neither moves nor spins; then spin is transferred with opposite signs, else both are
-    set to natural roll.
+    ``j_rests`` (0 or 1): ball j stays where it is, whether or not it spins there; then spin is transferred with
+    opposite signs, else both are set to natural roll.
     """
     radius = load(p, P_RADIUS)
     tx, ty = -ny, nx

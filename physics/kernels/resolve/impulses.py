@@ -22,13 +22,13 @@ from physics.kernels.layout import (
     P_E_BALL,
     P_HISTORICAL,
     PAIRS,
-    STATIONARY,
     VX,
     VY,
     WX,
     WY,
     WZ,
 )
+from physics.kernels.motion import moves
 from physics.kernels.resolve.ball_ball import add, approach, collide, collide_historically, part, rub
 from physics.kernels.tolerances import SLOW_APPROACH
 
@@ -137,10 +137,10 @@ def push_alone(p, w, k, i, j, nx, ny, closing):
     """The collision of two balls that share it with no other; (nx, ny) from i to j."""
     if load(p, P_HISTORICAL) == 0.0:
         collide(p, w, i, j, nx, ny, closing)
-    elif load_integer(k, MOTION + i) == STATIONARY:
-        collide_historically(p, w, j, i, -nx, -ny, plain(1))
+    elif moves(load_integer(k, MOTION + i)):
+        collide_historically(p, w, i, j, nx, ny, int(not moves(load_integer(k, MOTION + j))))
     else:
-        collide_historically(p, w, i, j, nx, ny, int(load_integer(k, MOTION + j) == STATIONARY))
+        collide_historically(p, w, j, i, -nx, -ny, plain(1))
 
 
 @kernel
