@@ -65,8 +65,8 @@ def main(path: str) -> None:
             works[name]()
             request(START_INSTRUMENTATION)
             works[name]()
+            request(DUMP_STATISTICS)  # before the stop, which forgets
             request(STOP_INSTRUMENTATION)
-            request(DUMP_STATISTICS)
             answer(None)
 
 
