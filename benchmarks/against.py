@@ -199,7 +199,7 @@ def count(side: Side, given: Scenes) -> dict[str, int]:
 
 def total(dump: str) -> int:
     """The instructions of one dump."""
-    return next(int(line.split()[1]) for line in dump.splitlines() if line.startswith(("totals:", "summary:")))
+    return next(int(line.split()[1]) for line in dump.splitlines() if line.startswith("totals:"))
 
 
 def times(sides: dict[str, Side], given: Scenes, pairs: int) -> Iterator[Row]:
