@@ -1,7 +1,7 @@
 """Many shots at once: ``simulate_batch``."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
@@ -14,7 +14,7 @@ from physics.errors import InvalidShot, InvalidState
 from physics.facts import FACTS_DTYPE, FACTS_WORDS
 from physics.kernels.layout import N_COUNTERS
 from physics.parameters import parameters
-from physics.shot import FIELDS
+from physics.shot import FIELDS, Shot
 from physics.simulation import NO_COUNTERS, NO_TRACE, checked_positions
 from physics.state import TableState
 from physics.table import Table
@@ -62,7 +62,7 @@ class Batch:
 def simulate_batch(
     table: Table,
     states: TableState | NDArray[np.float64],
-    shots: ArrayLike,
+    shots: ArrayLike | Sequence[Shot],
     threads: int = 1,
     counters: NDArray[np.int64] | None = None,
     check: Callable[[], None] | None = None,
@@ -72,7 +72,7 @@ def simulate_batch(
 
     Args:
         states: one ``TableState`` for all shots, or positions (n, 16, 2) in metres with NaN for absent balls.
-        shots: (n, 5) float64, columns v, phi, theta, a, b in Olympiad units.
+        shots: (n, 5) float64, columns v, phi, theta, a, b in Olympiad units; or a list of ``Shot``.
         threads: how many threads share the rows; the interpreter is not held meanwhile.
         counters: (n, 4) int64 to be filled with the work each shot took: predictions of a ball's next event, pairs the
             filter left, contacts solved, looks at the boundary.
@@ -89,7 +89,7 @@ def simulate_batch(
     """
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
         raise ValueError(f"threads = {threads!r}: must be a positive integer")
-    strokes = _checked_shots(shots)
+    strokes = checked_shots(shots)
     n = len(strokes)
     positions = _checked_states(table, states, n)
     final, pocket = np.empty((n, N_BALLS, 2)), np.empty((n, N_BALLS), np.int8)
@@ -121,7 +121,16 @@ def simulate_batch(
     return Batch(final, pocket, facts["status"].astype(np.int8), facts)
 
 
-def _checked_shots(shots: ArrayLike) -> NDArray[np.float64]:
+def checked_shots(shots: ArrayLike | Sequence[Shot]) -> NDArray[np.float64]:
+    """Return the shots as (n, 5) float64, columns v, phi, theta, a, b in Olympiad units.
+
+    Raises:
+        InvalidShot: wrong shape, or a value that is not finite; names the first bad row.
+    """
+    if isinstance(shots, Shot):
+        raise InvalidShot("shots", shots, "must be a list of shots, or rows (n, 5); write [shot] for a single one")
+    if isinstance(shots, list | tuple) and any(isinstance(shot, Shot) for shot in shots):
+        shots = [_row(number, shot) for number, shot in enumerate(shots)]
     try:
         given = np.asarray(shots)
     except ValueError:  # ragged
@@ -137,6 +146,13 @@ def _checked_shots(shots: ArrayLike) -> NDArray[np.float64]:
         row, column = bad[0].tolist()
         raise InvalidShot(f"shots[{row}].{FIELDS[column]}", float(strokes[row, column]), "must be a finite number")
     return strokes
+
+
+def _row(number: int, shot: object) -> tuple[float, ...]:
+    """One of a list of ``Shot``, as a row."""
+    if not isinstance(shot, Shot):
+        raise InvalidShot(f"shots[{number}]", shot, "must be a physics.Shot, as other shots of this list are")
+    return shot.v, shot.phi, shot.theta, shot.a, shot.b
 
 
 def _checked_counters(counters: NDArray[np.int64], n: int) -> NDArray[np.int64]:

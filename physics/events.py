@@ -2,9 +2,10 @@
 
 import dataclasses
 from enum import IntEnum, StrEnum
-from typing import Any
+from typing import Any, NoReturn
 
 from physics.constants import CUSHION_NAMES, POCKET_NAMES
+from physics.errors import shown
 from physics.kernels import layout
 
 
@@ -38,6 +39,10 @@ class EventKind(StrEnum):
     SPINNING_STATIONARY = "spinning_stationary"
     CONTACT = "contact"
     """A touching ball was parted or brought to rest by the contact rule; see docs/physics.md."""
+
+    @classmethod
+    def _missing_(cls, value: object) -> NoReturn:
+        raise ValueError(f"kind = {shown(value)}: must be one of {', '.join(cls)}")
 
 
 KINDS: tuple[EventKind, ...] = tuple(sorted(EventKind, key=lambda kind: getattr(layout, kind.name)))

@@ -117,6 +117,15 @@ class Events(Sequence[Event]):
         places = range(len(self))[index]
         return self._event(places) if isinstance(places, int) else [self._event(place) for place in places]
 
+    def of(self, kind: EventKind | str) -> list[Event]:
+        """Return the events of one kind in order, e.g. ``result.events.of("rail_collision")``.
+
+        Raises:
+            ValueError: there is no such kind.
+        """
+        wanted = KINDS.index(EventKind(kind))
+        return [self._event(place) for place in np.flatnonzero(self._rows[:, 1] == wanted).tolist()]
+
     def _event(self, place: int) -> Event:
         row = self._rows[place].tolist()
         kind, ball, other = KINDS[int(row[at.T_KIND])], int(row[at.T_BALL]), int(row[at.T_OTHER])

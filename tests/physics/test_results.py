@@ -17,6 +17,7 @@ R, W, L = 0.028575, 1.116, 2.236
 BREAK = physics.Shot(9.0, 270.0, 12.0)
 POISON = -77
 """What the memory of a fresh array holds in a test; no column of a trace can."""
+LAID = physics.TableState.from_positions({0: (0.5, 1.7), 3: (0.4, 0.6)})
 
 
 def shoot(positions, shot, table=OPEN):
@@ -292,3 +293,35 @@ def test_chained_shots_always_start_legally():
         assert state == result.final
         if 0 not in state.balls or len(state.balls) < 4:
             state = physics.rack(OPEN, "eight_ball", seed=int(rng.integers(1000)))
+
+
+def test_a_batch_takes_shot_objects():
+    """Seen: `simulate_batch(table, state, [Shot(...)])` answered that "object" must be float64."""
+    shots = [physics.Shot(2.0, 100.0 + k, 8.0, 1.0, -2.0) for k in range(3)]
+    rows = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b] for shot in shots])
+    batch, same = (physics.simulate_batch(TABLE, LAID, given) for given in (shots, rows))
+    assert batch.positions.tobytes() == same.positions.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("shots", "words"),
+    [
+        (physics.Shot(1.0, 2.0), r"shots = Shot\(.*write \[shot\]"),
+        ([physics.Shot(1.0, 2.0), [1.0] * 5], r"shots\[1\] = .*must be a physics.Shot"),
+    ],
+)
+def test_shots_that_are_no_batch_are_explained(shots, words):
+    with pytest.raises(physics.InvalidShot, match=words):
+        physics.simulate_batch(TABLE, LAID, shots)
+
+
+def test_events_of_a_kind(broken):
+    for kind in physics.EventKind:
+        assert broken.events.of(kind) == broken.events.of(kind.value) == [e for e in broken.events if e.kind is kind]
+    assert broken.events.of("rail_collision")
+
+
+def test_a_wrong_event_kind_is_answered_with_those_there_are(broken):
+    for ask in (physics.EventKind, broken.events.of):
+        with pytest.raises(ValueError, match=r"kind = 'cushion': must be one of cue_strike, .*rail_collision"):
+            ask("cushion")
