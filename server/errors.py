@@ -210,7 +210,7 @@ class TooManyOpen(TooManyRequests):
     def __init__(self, key: str, what: str, taken: int, most: int) -> None:
         ServerError.__init__(
             self,
-            f"the {key} has {taken} {what} open; allowed: at most {most} at once",
+            f"the {key} has {taken} {what} open: must be at most {most} at once",
             field=what,
             value=taken,
             allowed=f"at most {most} at once of the {key}",
@@ -236,7 +236,7 @@ class Unavailable(ServerError):
 
 def invalid_field(field: str, value: object, allowed: str) -> Invalid:
     """The error for one field found wrong by hand."""
-    detail = f"{field} is {shown(value)!r}; allowed: {allowed}"
+    detail = f"{field} = {shown(value)!r}: must be {allowed}"
     return Invalid([Fault(code="value", field=field, value=shown(value), allowed=allowed, detail=detail)])
 
 

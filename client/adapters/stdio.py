@@ -150,7 +150,7 @@ class StdioAgent(Agent):
         name, asked = question["ask"], {key: value for key, value in question.items() if key != "ask"}
         try:
             if not isinstance(name, str) or name not in _QUESTIONS:
-                raise AgentFailed(f"ask is {name!r}; allowed: {', '.join(_QUESTIONS)}")
+                raise AgentFailed(f"ask = {name!r}: must be one of {', '.join(_QUESTIONS)}")
             model, answer = _QUESTIONS[name]
             scene = {"table": view.table, **({} if "tables" in asked else {"balls": _plain(view)["balls"]})}
             return _message("answer", **_plain(answer(self, model.model_validate(scene | asked))))
@@ -203,7 +203,7 @@ def _read(line: str) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         raise NonsenseAnswer(f"the command answered {line[:SHOWN]!r}, which is no JSON: {error}") from None
     if not isinstance(said, dict):
-        raise NonsenseAnswer(f"the command answered {line[:SHOWN]!r}; allowed: an object with shot or decision")
+        raise NonsenseAnswer(f"answer = {line[:SHOWN]!r}: must be an object with shot or decision")
     return said
 
 
