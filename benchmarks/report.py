@@ -11,8 +11,7 @@ from typing import Any
 from benchmarks import recording
 
 DOCUMENT = recording.ROOT / "docs" / "benchmarks.md"
-"""The one with a table of every benchmark."""
-OTHERS = (recording.ROOT / "docs" / "agents.md",)
+"""It has a table of every benchmark."""
 TABLE = re.compile(r"(<!-- table (\w+) (\w+)((?: \w+)*) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
@@ -51,5 +50,4 @@ def cited(line: dict[str, Any]) -> str:
 
 
 if __name__ == "__main__":
-    for document in (DOCUMENT, *OTHERS):
-        write(document)
+    write(DOCUMENT)

@@ -6,8 +6,9 @@
     ├── ConnectionFailed        no answer: refused, reset, timed out, garbled on its way
     ├── UnexpectedAnswer        an answer that is not of this protocol
     ├── AgentNotFound           no agent of this name, no such import path
-    ├── AgentFailed             the command of an agent left, was silent, or answered nonsense
-    │   └── NonsenseAnswer      the last of these
+    ├── AgentFailed             an agent's command left or was silent; a local agent kept raising an exception
+    │   ├── AgentUnstartable    it cannot be made, or its command cannot be started
+    │   └── NonsenseAnswer      it answered, but with no action
     └── ApiError                the server answered with a problem
         ├── BadRequest          400
         │   ├── NotJson
@@ -86,15 +87,19 @@ class AgentNotFound(PooliadError):
 
 
 class AgentFailed(PooliadError):
-    """The command of an agent cannot be started, left, gave no answer in time, or answered nonsense."""
+    """An agent fails: its command left or was silent, or it raised the same exception again and again (the cause)."""
+
+
+class AgentUnstartable(AgentFailed):
+    """An agent cannot be made (the cause is what its class raised), or its command cannot be started."""
 
 
 class NonsenseAnswer(AgentFailed):
-    """An agent that is a command answered, but with a line that is no action."""
+    """An agent answered, but with no action."""
 
 
 class ApiError(PooliadError):
-    """The server answered with a problem.
+    """The server answered with a problem. A class named like a `ProblemCode` is raised for that code.
 
     Attributes:
         status: HTTP status.
@@ -104,6 +109,9 @@ class ApiError(PooliadError):
     """
 
     code: ClassVar[ProblemCode | None] = None
+
+    def __init_subclass__(cls) -> None:
+        cls.code = ProblemCode.of_class(cls.__name__)
 
     def __init__(self, response: httpx2.Response, problem: Problem | None) -> None:
         self.status = response.status_code
@@ -134,43 +142,29 @@ class BadRequest(ApiError):
 class NotJson(BadRequest):
     """The body is not JSON."""
 
-    code = ProblemCode.NOT_JSON
-
 
 class BadHeader(BadRequest):
     """A header is missing or malformed."""
-
-    code = ProblemCode.BAD_HEADER
 
 
 class Unauthorized(ApiError):
     """No token, or one that is not valid."""
 
-    code = ProblemCode.UNAUTHORIZED
-
 
 class Forbidden(ApiError):
     """The token may not do this."""
-
-    code = ProblemCode.FORBIDDEN
 
 
 class NotFound(ApiError):
     """No such thing."""
 
-    code = ProblemCode.NOT_FOUND
-
 
 class MethodNotAllowed(ApiError):
     """The address exists, but not for this method."""
 
-    code = ProblemCode.METHOD_NOT_ALLOWED
-
 
 class SlowBody(ApiError):
     """The body did not arrive in time."""
-
-    code = ProblemCode.SLOW_BODY
 
 
 class Conflict(ApiError):
@@ -180,61 +174,41 @@ class Conflict(ApiError):
 class GameFinished(Conflict):
     """The game is over."""
 
-    code = ProblemCode.GAME_FINISHED
-
 
 class GameUnfinished(Conflict):
     """The game is still on, and this is for finished ones."""
-
-    code = ProblemCode.GAME_UNFINISHED
 
 
 class MatchUnfinished(Conflict):
     """The match has untold noise and is still on; records of its games are given when it is over."""
 
-    code = ProblemCode.MATCH_UNFINISHED
-
 
 class TournamentUnfinished(Conflict):
     """The tournament has untold noise and is still on; records of its games are given when it is over."""
-
-    code = ProblemCode.TOURNAMENT_UNFINISHED
 
 
 class NotYourTurn(Conflict):
     """It is the other player's turn."""
 
-    code = ProblemCode.NOT_YOUR_TURN
-
 
 class OutOfTime(Conflict):
     """The caller's clock has run out."""
-
-    code = ProblemCode.OUT_OF_TIME
 
 
 class BudgetSpent(Conflict):
     """The caller's budget of simulated shots has fewer left."""
 
-    code = ProblemCode.BUDGET_SPENT
-
 
 class WrongStatus(Conflict):
     """The match is not in a state that allows this."""
-
-    code = ProblemCode.WRONG_STATUS
 
 
 class NameTaken(Conflict):
     """Another agent has this name."""
 
-    code = ProblemCode.NAME_TAKEN
-
 
 class StaleVersion(ApiError):
     """The game has moved on since the view that was answered."""
-
-    code = ProblemCode.STALE_VERSION
 
     @property
     def view(self) -> View | None:
@@ -245,13 +219,9 @@ class StaleVersion(ApiError):
 class TooLarge(ApiError):
     """The body is too large."""
 
-    code = ProblemCode.TOO_LARGE
-
 
 class UnsupportedMediaType(ApiError):
     """The body must be JSON."""
-
-    code = ProblemCode.UNSUPPORTED_MEDIA_TYPE
 
 
 class Unprocessable(ApiError):
@@ -261,31 +231,21 @@ class Unprocessable(ApiError):
 class Invalid(Unprocessable):
     """A field is missing, unknown, of the wrong type or out of range."""
 
-    code = ProblemCode.INVALID
-
 
 class Refused(Unprocessable):
     """The referee refuses the stroke or the decision; nothing happened, the clock runs on."""
-
-    code = ProblemCode.REFUSED
 
 
 class KeyReused(Unprocessable):
     """This Idempotency-Key came before with another body."""
 
-    code = ProblemCode.KEY_REUSED
-
 
 class VersionRequired(ApiError):
     """The request needs `If-Match` with the version of the view it answers."""
 
-    code = ProblemCode.VERSION_REQUIRED
-
 
 class TooManyRequests(ApiError):
     """Wait for `retry_after` seconds."""
-
-    code = ProblemCode.TOO_MANY_REQUESTS
 
 
 class ServerError(ApiError):
@@ -295,19 +255,13 @@ class ServerError(ApiError):
 class Internal(ServerError):
     """A fault of the server."""
 
-    code = ProblemCode.INTERNAL
-
 
 class Draining(ServerError):
     """The server is shutting down."""
 
-    code = ProblemCode.DRAINING
-
 
 class Unavailable(ServerError):
     """The server's database does not answer."""
-
-    code = ProblemCode.UNAVAILABLE
 
 
 def error_of(response: httpx2.Response) -> ApiError:

@@ -1,48 +1,26 @@
 """The synchronous client."""
 
 import time
+from collections.abc import Callable
 from types import TracebackType
-from typing import Self
+from typing import Concatenate, ParamSpec, Self
 
 import httpx2
 
 from client import calls
-from client.calls import TurnMessage
 from client.exchange import Answer, ApiCall, Outcome, Step, Wait, exchange
 from client.retry import Retry
-from physics import Shot, Table, TableState
-from protocol import (
-    AgentList,
-    AgentToken,
-    AgentView,
-    BatchAnswer,
-    ClockLedger,
-    DisqualifyRequest,
-    EntriesPage,
-    GameAnswer,
-    InvitationRequest,
-    Invitations,
-    KeyList,
-    MatchList,
-    MatchRequest,
-    MatchView,
-    MinElevationAnswer,
-    ShotsPage,
-    SimulateAnswer,
-    StandingsView,
-    StrokeAnswer,
-    TokenList,
-    TokenRequest,
-    TokenSecret,
-    TournamentList,
-    TournamentRequest,
-    TournamentStatus,
-    TournamentView,
-    VoidRequest,
-)
-from protocol.clocks import SupervisorsReason
-from protocol.matches import MatchStatus
-from referee import Action
+
+Parameters = ParamSpec("Parameters")
+
+
+def _sent(make: Callable[Parameters, ApiCall[Answer]]) -> Callable[Concatenate["Pooliad", Parameters], Answer]:
+    """The method that sends a call of `client.calls` and returns its answer."""
+
+    def method(self: "Pooliad", /, *args: Parameters.args, **kwargs: Parameters.kwargs) -> Answer:
+        return self._send(make(*args, **kwargs))
+
+    return calls.as_method(method, make)
 
 
 class Pooliad:
@@ -81,150 +59,39 @@ class Pooliad:
         """Close the connections."""
         self._http.close()
 
-    def register(self, name: str, *, invitation: str | None = None) -> AgentToken:
-        """Register an agent; the answer holds its token, which is shown this once."""
-        return self._send(calls.register(name, invitation))
-
-    def agents(self, cursor: str | None = None, *, house: bool | None = None) -> AgentList:
-        """One page of the registered agents; house bots alone, or all but them, when asked for."""
-        return self._send(calls.agents(cursor, house))
-
-    def me(self) -> AgentView:
-        """The agent whose token this is."""
-        return self._send(calls.me())
-
-    def rotate_token(self, agent: str) -> AgentToken:
-        """Replace an agent's token by a new one."""
-        return self._send(calls.rotate_token(agent))
-
-    def revoke_token(self, agent: str) -> None:
-        """Make an agent's token worthless."""
-        return self._send(calls.revoke_token(agent))
-
-    def create_staff_token(self, request: TokenRequest) -> TokenSecret:
-        """Make a token for an organiser, an administrator or a reader (administrator); it is shown this once."""
-        return self._send(calls.create_staff_token(request))
-
-    def staff_tokens(self, cursor: str | None = None) -> TokenList:
-        """One page of the tokens that are not agents', without the tokens themselves (administrator)."""
-        return self._send(calls.staff_tokens(cursor))
-
-    def rotate_staff_token(self, token_id: str) -> TokenSecret:
-        """Replace such a token by a new one under the same id (administrator)."""
-        return self._send(calls.rotate_staff_token(token_id))
-
-    def revoke_staff_token(self, token_id: str) -> None:
-        """Make such a token worthless (administrator)."""
-        return self._send(calls.revoke_staff_token(token_id))
-
-    def invite(self, count: int = 1, *, seconds: float | None = None) -> Invitations:
-        """Codes, each good for one registration within so many seconds (organiser)."""
-        return self._send(calls.invite(InvitationRequest(count=count, seconds=seconds)))
-
-    def create_match(self, request: MatchRequest) -> MatchView:
-        """Set up a match (organiser), or challenge the other agent (one of the two)."""
-        return self._send(calls.create_match(request))
-
-    def matches(
-        self, cursor: str | None = None, *, agent: str | None = None, status: MatchStatus | None = None
-    ) -> MatchList:
-        """One page of the matches, the newest first; of one agent (id) or one status when asked for."""
-        return self._send(calls.matches(cursor, agent, status))
-
-    def match(self, match_id: str) -> MatchView:
-        """A match and how its games stand."""
-        return self._send(calls.match(match_id))
-
-    def accept(self, match_id: str, client_seed: str | None = None) -> MatchView:
-        """Accept a challenge; a seed of one's own (64 hexadecimal digits) is mixed into noise and racks."""
-        return self._send(calls.accept(match_id, client_seed))
-
-    def add_seed(self, match_id: str, client_seed: str) -> MatchView:
-        """Add a seed (64 hexadecimal digits) to the draw of a match that has not begun; once."""
-        return self._send(calls.add_seed(match_id, client_seed))
-
-    def keys(self) -> KeyList:
-        """The public keys that the server signs records with, the newest first."""
-        return self._send(calls.keys())
-
-    def abort(self, match_id: str) -> MatchView:
-        """Stop a match."""
-        return self._send(calls.abort(match_id))
-
-    def create_tournament(self, request: TournamentRequest) -> TournamentView:
-        """Make a tournament; its first matches begin when it is started."""
-        return self._send(calls.create_tournament(request))
-
-    def tournaments(self, cursor: str | None = None, *, status: TournamentStatus | None = None) -> TournamentList:
-        """One page of the tournaments, the newest first; of one status when asked for."""
-        return self._send(calls.tournaments(cursor, status))
-
-    def tournament(self, tournament_id: str) -> TournamentView:
-        """A tournament with its games."""
-        return self._send(calls.tournament(tournament_id))
-
-    def standings(self, tournament_id: str) -> StandingsView:
-        """How a tournament's entrants stand."""
-        return self._send(calls.standings(tournament_id))
-
-    def tournament_entries(self, tournament_id: str, cursor: int = 0) -> EntriesPage:
-        """One page of results and decisions in their order, after the entry with the number `cursor` (organiser)."""
-        return self._send(calls.tournament_entries(tournament_id, cursor))
-
-    def direct_tournament(
-        self, tournament_id: str, act: calls.Act, request: VoidRequest | DisqualifyRequest | None = None
-    ) -> TournamentView:
-        """Start (or go on after a pause), pause or abort a tournament, take a game or an entrant out of it."""
-        return self._send(calls.direct_tournament(tournament_id, act, request))
-
-    def turns(self, wait: float = 30.0) -> TurnMessage | None:
-        """Wait up to `wait` seconds for the caller's next message; None when there is none."""
-        return self._send(calls.turns(wait))
-
-    def play(self, game_id: str, version: int, action: Action, *, simulated: int = 0) -> StrokeAnswer:
-        """Answer the view with this version: a stroke, a decision or a concession.
-
-        `simulated`: shots simulated elsewhere since the last action, declared against the budget of the game.
-        """
-        return self._send(calls.play(game_id, version, action, simulated))
-
-    def forfeit(self, game_id: str, seat: int, reason: SupervisorsReason = "forfeit") -> GameAnswer:
-        """End a game against the player of a seat (organiser): `crash`, `stall`, `no_show` or `forfeit`."""
-        return self._send(calls.forfeit(game_id, seat, reason))
-
-    def clock(self, game_id: str) -> ClockLedger:
-        """What the turns of a game took, what of it was given back, and what was charged."""
-        return self._send(calls.clock(game_id))
-
-    def game(self, game_id: str) -> GameAnswer:
-        """A game and the caller's view of it."""
-        return self._send(calls.game(game_id))
-
-    def shots(self, game_id: str, cursor: int | None = None) -> ShotsPage:
-        """One page of a game's strokes, from `cursor` on."""
-        return self._send(calls.shots(game_id, cursor))
-
-    def record(self, game_id: str) -> bytes:
-        """The record of a finished game: JSON lines that `pooliad replay verify` accepts."""
-        return self._send(calls.record(game_id))
-
-    def simulate(
-        self, table: Table, state: TableState, shot: Shot, trace: bool = True, *, game: str | None = None
-    ) -> SimulateAnswer:
-        """One shot on the server's physics; with `game` it counts against the caller's budget in that game."""
-        return self._send(calls.simulate(table, state, shot, trace, game))
-
-    def simulate_batch(
-        self, table: Table, state: TableState, shots: list[Shot], *, game: str | None = None
-    ) -> BatchAnswer:
-        """Many shots from one position on the server's physics; with `game` they count likewise."""
-        return self._send(calls.simulate_batch(table, state, shots, game))
-
-    def min_elevation(
-        self, table: Table, state: TableState, phi: float, a: float = 0.0, b: float = 0.0
-    ) -> MinElevationAnswer:
-        """The least elevation (deg) at which the cue is free; None when there is none."""
-        return self._send(calls.min_elevation(table, state, phi, a, b))
+    register = _sent(calls.register)
+    agents = _sent(calls.agents)
+    me = _sent(calls.me)
+    rotate_token = _sent(calls.rotate_token)
+    revoke_token = _sent(calls.revoke_token)
+    create_staff_token = _sent(calls.create_staff_token)
+    staff_tokens = _sent(calls.staff_tokens)
+    rotate_staff_token = _sent(calls.rotate_staff_token)
+    revoke_staff_token = _sent(calls.revoke_staff_token)
+    invite = _sent(calls.invite)
+    create_match = _sent(calls.create_match)
+    matches = _sent(calls.matches)
+    match = _sent(calls.match)
+    accept = _sent(calls.accept)
+    add_seed = _sent(calls.add_seed)
+    keys = _sent(calls.keys)
+    abort = _sent(calls.abort)
+    create_tournament = _sent(calls.create_tournament)
+    tournaments = _sent(calls.tournaments)
+    tournament = _sent(calls.tournament)
+    standings = _sent(calls.standings)
+    tournament_entries = _sent(calls.tournament_entries)
+    direct_tournament = _sent(calls.direct_tournament)
+    turns = _sent(calls.turns)
+    play = _sent(calls.play)
+    forfeit = _sent(calls.forfeit)
+    clock = _sent(calls.clock)
+    game = _sent(calls.game)
+    shots = _sent(calls.shots)
+    record = _sent(calls.record)
+    simulate = _sent(calls.simulate)
+    simulate_batch = _sent(calls.simulate_batch)
+    min_elevation = _sent(calls.min_elevation)
 
     def _send(self, call: ApiCall[Answer]) -> Answer:
         """Drive the exchange with a blocking connection."""

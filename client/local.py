@@ -1,18 +1,24 @@
 """Matches in one process, without server and clock: for trying an agent out, and for measuring it."""
 
 import secrets
+import traceback
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Final
 
 from client.agent import AgentFactory
 from client.agents.registry import Player, factory_of, titles
-from client.local_game import BadAction, PlayedGame, Watch, play_match, points_of
-from client.players import Instance, log
+from client.errors import AgentFailed, AgentUnstartable
+from client.local_game import BadAction, Chairs, PlayedGame, Watch, play_match, points_of
+from client.session import AgentSession
 from physics import Table
 from protocol import GameOver, GameTerms, OutcomeView, View
-from referee import Action, EightBall, Game, Phase, SimulationBudget
+from referee import EightBall, Game, Phase
 from referee.play import LINKS, Budgets, MatchSeed, NoiseModel, Refused, Stroke
+
+SAME_EXCEPTION: Final = 3
+"""Times an agent may raise the same exception; the third shows that no other try will help."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,10 +55,11 @@ def play(
     simulations: int | None = None,
     start: Game | None = None,
     on_stroke: Callable[[Stroke], Any] | None = None,
+    strict: bool = True,
 ) -> LocalMatch:
     """Play a match of 8-ball between two agents.
 
-    What an agent does wrong is logged; after twenty bad actions in a row it forfeits the game.
+    What an agent does wrong is logged, and it is asked again; after twenty bad actions in a row it forfeits the game.
 
     Args:
         agent_a, agent_b: the players of seat 0 and seat 1.
@@ -64,22 +71,26 @@ def play(
         start: where every game begins instead of a break, e.g. `view.to_game()`; the seats are exchanged in
             every second game.
         on_stroke: called after every stroke and decision.
+        strict: end the match when an agent has raised the same exception, of one type at one line, three times.
 
     Raises:
         client.errors.AgentNotFound: a name leads nowhere.
+        client.errors.AgentUnstartable: an agent cannot be made or its command cannot be started.
+        client.errors.AgentFailed: an agent has raised the same exception three times; the cause is the last of them,
+            with the agent's own traceback.
         ValueError: a number of games, a seed, a level of noise or a number of simulations that is none, a
             start that cannot be played on from (`referee.InvalidGame`).
     """
     if isinstance(games, bool) or not isinstance(games, int) or not 1 <= games <= LINKS:
         raise ValueError(f"games = {games!r}: must be an integer in [1, {LINKS}]")
     seed = secrets.randbelow(2**32) if seed is None else seed
-    hall = _Hall((factory_of(agent_a, seed), factory_of(agent_b, seed)))
     players = titles(_name(agent_a), _name(agent_b))
-    watch = Watch(on_stroke=on_stroke or _ignore, on_refusal=hall.refused)
+    sides = _Sides((factory_of(agent_a, seed), factory_of(agent_b, seed)), players, strict)
+    watch = Watch(on_stroke=on_stroke or (lambda stroke: None), on_refusal=sides.refused)
     rules, model = EightBall(table or Table.olympiad()), NoiseModel(noise)
     match = play_match(
         rules,
-        hall.seat,
+        sides.seat,
         MatchSeed.of(seed),
         games,
         model,
@@ -88,63 +99,55 @@ def play(
         simulations=simulations,
         watch=watch,
     )
-    played = tuple(hall.finished(game) for game in match)
-    return LocalMatch(players, played, hall.score, seed)
+    played = tuple(sides.finished(game) for game in match)
+    return LocalMatch(players, played, sides.score, seed)
 
 
-class _Chair:
-    """One player in one game."""
+class _Sides:
+    """Two players, a fresh instance of each for every game, the score, and what their code raised."""
 
-    def __init__(self, seat: int, factory: AgentFactory, budget: SimulationBudget) -> None:
-        self._seat = seat
-        self._instance = Instance(factory, budget)
-
-    def __call__(self, view: View) -> Action:
-        """The agent's answer; whatever it raises goes to the driver."""
-        return self._instance.choose(view)
-
-    def refused(self, bad: BadAction) -> None:
-        """Tell the agent why its action was not accepted; what it raised itself it knows."""
-        if not isinstance(bad.reason, Refused):
-            return
-        try:
-            self._instance.refused(str(bad.reason))
-        except Exception:
-            log.exception("refused raised")
-
-    def finish(self, game: PlayedGame, score: tuple[float, float]) -> None:
-        """Tell an agent that has been at the table how the game ended."""
-        if self._instance.last is None:
-            return
-        try:
-            self._instance.game_over(over_message(game, self._seat, self._instance.last, score))
-        except Exception:
-            log.exception("game %s: game_over raised", game.header.game)
-
-
-class _Hall:
-    """Two players, a pair of fresh instances for every game, and the score."""
-
-    def __init__(self, factories: tuple[AgentFactory, AgentFactory]) -> None:
-        self._factories = factories
+    def __init__(self, factories: tuple[AgentFactory, AgentFactory], players: tuple[str, str], strict: bool) -> None:
+        self._sessions = AgentSession(factories[0]), AgentSession(factories[1])
+        self._players = players
+        self._strict = strict
+        self._raised: Counter[tuple[object, ...]] = Counter()
         self.score = (0.0, 0.0)
 
-    def seat(self, _number: int, budget: Budgets) -> tuple[_Chair, _Chair]:
+    def seat(self, _number: int, budget: Budgets) -> Chairs:
         """The choosers for the next game, each simulating on its budget."""
-        self._chairs = _Chair(0, self._factories[0], budget[0]), _Chair(1, self._factories[1], budget[1])
-        return self._chairs
+        for session, own in zip(self._sessions, budget, strict=True):
+            session.begin(own)
+            session.make()
+        return self._sessions[0].ask, self._sessions[1].ask
 
     def refused(self, bad: BadAction) -> None:
-        """Log a bad action, and tell the player."""
-        _log_bad_action(bad)
-        self._chairs[bad.seat].refused(bad)
+        """Tell a player why its action was not accepted; end the match over an exception that comes again."""
+        if isinstance(bad.reason, Refused):
+            self._sessions[bad.seat].refused(str(bad.reason))
+        elif isinstance(bad.reason, AgentUnstartable):
+            raise bad.reason
+        elif self._strict:
+            self._count(bad.seat, bad.reason)
+
+    def _count(self, seat: int, error: Exception) -> None:
+        """Raise when the player has raised this exception, of one type at one line, too often."""
+        lines = [(frame.f_code.co_filename, number) for frame, number in traceback.walk_tb(error.__traceback__)]
+        this = seat, type(error), lines[-1:] and lines[-1]
+        self._raised[this] += 1
+        if self._raised[this] == SAME_EXCEPTION:
+            words = f"{type(error).__name__}: {error}"
+            raise AgentFailed(
+                f"{self._players[seat]} (seat {seat}) raised the same exception {SAME_EXCEPTION} times, the last one "
+                f"{words}; with strict=False the match goes on"
+            ) from error
 
     def finished(self, game: PlayedGame) -> PlayedGame:
         """Count a game, and tell both players of it."""
         first, second = points_of(game.outcome)
         self.score = self.score[0] + first, self.score[1] + second
-        for chair in self._chairs:
-            chair.finish(game, self.score)
+        for seat, session in enumerate(self._sessions):
+            if session.last is not None:
+                session.over(over_message(game, seat, session.last, self.score))
         return game
 
 
@@ -177,12 +180,3 @@ def over_message(game: PlayedGame, seat: int, last: View, score: tuple[float, fl
         record="",
         view=view,
     )
-
-
-def _ignore(_stroke: Stroke) -> None:
-    """For nobody who watches."""
-
-
-def _log_bad_action(bad: BadAction) -> None:
-    """Say in the log what an agent did wrong, with its traceback if it raised."""
-    log.error("seat %d, bad action %d in a row: %s", bad.seat, bad.attempt, bad.reason, exc_info=bad.reason)

@@ -1,8 +1,8 @@
 """Play over a server until the match is over."""
 
-import logging
 import secrets
 import time
+from collections.abc import Callable
 from typing import NoReturn
 
 import httpx2
@@ -10,15 +10,13 @@ from pydantic import ValidationError
 
 from client.agents.registry import Player, factory_of
 from client.calls import TurnMessage
-from client.errors import Conflict, StaleVersion, Unprocessable
+from client.errors import AgentUnstartable, BudgetSpent, Conflict, PooliadError, StaleVersion, Unprocessable
 from client.http import Pooliad
-from client.players import Players
 from client.retry import Retry
+from client.session import GameSessions, log
 from protocol import GameOver, MatchOver, SeedWanted, Turn, View
 from protocol.matches import MatchStatus
 from referee.play.seeds import SEED_BYTES
-
-log = logging.getLogger("pooliad.agent")
 
 POLL = 30.0
 """Seconds that one long poll may wait for a turn."""
@@ -47,11 +45,11 @@ def run_agent(
         match: id of the match whose end is waited for; any that was played in unless given.
 
     Raises:
-        client.PooliadError: there is no agent of this name, the token is not accepted, or the server stays
-            away for longer than `retry` waits.
+        client.PooliadError: there is no agent of this name, it cannot be made, the token is not accepted, or the
+            server stays away for longer than `retry` waits.
     """
     with Pooliad(url, token, retry=retry, transport=transport) as server:
-        return _Run(server, Players(factory_of(agent)), match).until_over()
+        return TurnLoop(server, GameSessions(factory_of(agent)), match).until_over()
 
 
 def serve_agent(
@@ -64,18 +62,36 @@ def serve_agent(
 ) -> NoReturn:
     """Play every turn the server offers, match after match, as house bots do. Arguments and errors as `run_agent`."""
     with Pooliad(url, token, retry=retry, transport=transport) as server:
-        run = _Run(server, Players(factory_of(agent)))
+        run = TurnLoop(server, GameSessions(factory_of(agent)))
         while True:
             run.next_message()
 
 
-class _Run:
-    """One agent at one server."""
+class TurnLoop:
+    """One player at one server: turns from the server to its sessions, actions back.
 
-    def __init__(self, server: Pooliad, players: Players, match: str | None = None) -> None:
+    Args:
+        server: a connection with the player's token.
+        sessions: who plays.
+        match: id of the match whose end `until_over` waits for; any that was played in unless given.
+        poll: s that a long poll waits.
+        pause: waits so many seconds after a bad answer.
+    """
+
+    def __init__(
+        self,
+        server: Pooliad,
+        sessions: GameSessions,
+        match: str | None = None,
+        *,
+        poll: float = POLL,
+        pause: Callable[[float], object] = time.sleep,
+    ) -> None:
         self._server = server
-        self._players = players
+        self._sessions = sessions
         self._match = match
+        self._poll = poll
+        self._pause = pause
         self._last: View | None = None
         self._played_in: set[str] = set()
         self._failures = 0
@@ -91,18 +107,18 @@ class _Run:
 
     def next_message(self) -> TurnMessage | None:
         """Wait for a message, answer it if it is a turn, and return it; None when none came."""
-        message = self._server.turns(POLL)
+        message = self._server.turns(self._poll)
         match message:
             case Turn(view=view):
                 self._play(view)
             case SeedWanted(match=match_id):
                 self._add_seed(match_id)
             case GameOver() as over:
-                self._players.game_over(over)
+                self._sessions.over(over)
         return message
 
     def _play(self, view: View) -> None:
-        """Act while it is this agent's turn; after a failed try the turn is read again."""
+        """Act while it is this player's turn; after a bad answer the turn is read again."""
         following: View | None = view
         while following is not None and following.my_turn:
             self._last = following
@@ -111,19 +127,30 @@ class _Run:
         self._pace(failed=following is None)
 
     def _answer(self, view: View) -> View | None:
-        """Let the agent act on the view: the view that follows, or None when the game did not move on."""
-        action = self._players.choose(view)
-        if action is None:
-            return None
+        """Let the player act on the view: the view that follows, or None when the game did not move on."""
+        session = self._sessions.of(view)
         try:
-            simulated = self._players.simulated(view.game)
-            answer = self._server.play(view.game, view.version, action, simulated=simulated)
-            self._players.declared(view.game, simulated)
-            return answer.view
-        except (Unprocessable, ValidationError) as error:
-            self._players.refused(view, error)
+            action = session.ask(view)
+        except AgentUnstartable:
+            raise
+        except Exception as error:  # the session has told of it
+            self._sessions.failed(view, error)
+            return None
+        shots = session.undeclared
+        try:
+            answer = self._server.play(view.game, view.version, action, simulated=shots)
+        except (Unprocessable, BudgetSpent, ValidationError) as error:
+            session.refused(str(error))
+            self._sessions.failed(view, error)
         except (StaleVersion, Conflict) as error:
             log.warning("game %s, version %d: %s; the turn is read again", view.game, view.version, error)
+        except PooliadError:
+            session.doubted(shots)
+            raise
+        else:
+            session.declared(shots)
+            self._sessions.acted()
+            return answer.view
         return None
 
     def _add_seed(self, match_id: str) -> None:
@@ -137,7 +164,7 @@ class _Run:
         """Pause after a failed try, longer after each."""
         self._failures = self._failures + 1 if failed else 0
         if self._failures:
-            time.sleep(min(LONGEST_PAUSE, FIRST_PAUSE * 2.0 ** min(self._failures - 1, 10)))
+            self._pause(min(LONGEST_PAUSE, FIRST_PAUSE * 2.0 ** min(self._failures - 1, 10)))
 
     def _is_the_end(self, over: MatchOver) -> bool:
         """Whether it is the match waited for, or one played here, or none of this agent's is left to play."""

@@ -3,9 +3,12 @@
 from typing import TYPE_CHECKING
 
 import physics
+from physics.batch import checked_shots
 from referee import SimulationBudget
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
@@ -26,7 +29,7 @@ class Simulator:
         return self.budget.remaining
 
     def simulate(
-        self, table: physics.Table, state: physics.TableState, shot: physics.Shot, trace: bool = False
+        self, table: physics.Table, state: physics.TableState, shot: physics.Shot, trace: bool = True
     ) -> physics.Result:
         """One shot, as `physics.simulate` plays it.
 
@@ -40,16 +43,15 @@ class Simulator:
         self,
         table: physics.Table,
         states: "physics.TableState | NDArray[np.float64]",
-        shots: "ArrayLike",
+        shots: "ArrayLike | Sequence[physics.Shot]",
         threads: int = 1,
     ) -> physics.Batch:
         """Many shots, as `physics.simulate_batch` plays them; each row counts, also one that cannot be played.
 
         Raises:
             referee.BudgetSpent: fewer are left than there are rows; nothing was simulated.
+            physics.InvalidShot: the shots are not as `physics.simulate_batch` takes them; none is counted.
         """
-        import numpy as np
-
-        rows = np.asarray(shots, dtype=np.float64)
-        self.budget.spend(len(rows) if rows.ndim else 0)
+        rows = checked_shots(shots)
+        self.budget.spend(len(rows))
         return physics.simulate_batch(table, states, rows, threads=threads)

@@ -1,7 +1,7 @@
 """Many shots at once: ``simulate_batch``."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 from physics.constants import BALL_RADIUS, EVENT_LIMIT, N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
-from physics.facts import FACTS_DTYPE
+from physics.facts import FACTS_DTYPE, FACTS_WORDS
+from physics.kernels.layout import N_COUNTERS
 from physics.parameters import parameters
-from physics.shot import FIELDS
-from physics.simulation import N_COUNTERS, NO_COUNTERS, NO_TRACE, checked_positions
+from physics.shot import FIELDS, Shot
+from physics.simulation import NO_COUNTERS, NO_TRACE, checked_positions
 from physics.state import TableState
 from physics.table import Table
 
@@ -22,9 +23,6 @@ PARTS_PER_THREAD = 8
 """A batch is cut finer than into one part a thread: a thread that was held up leaves its parts to the others."""
 CHECKED_ROWS = 64
 """Some two milliseconds of ordinary shots."""
-
-FACTS_WORDS = FACTS_DTYPE.itemsize // 4
-"""Size of one shot's facts in 32-bit words."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -64,7 +62,7 @@ class Batch:
 def simulate_batch(
     table: Table,
     states: TableState | NDArray[np.float64],
-    shots: ArrayLike,
+    shots: ArrayLike | Sequence[Shot],
     threads: int = 1,
     counters: NDArray[np.int64] | None = None,
     check: Callable[[], None] | None = None,
@@ -74,7 +72,7 @@ def simulate_batch(
 
     Args:
         states: one ``TableState`` for all shots, or positions (n, 16, 2) in metres with NaN for absent balls.
-        shots: (n, 5) float64, columns v, phi, theta, a, b in Olympiad units.
+        shots: (n, 5) float64, columns v, phi, theta, a, b in Olympiad units; or a list of ``Shot``.
         threads: how many threads share the rows; the interpreter is not held meanwhile.
         counters: (n, 4) int64 to be filled with the work each shot took: predictions of a ball's next event, pairs the
             filter left, contacts solved, looks at the boundary.
@@ -91,28 +89,22 @@ def simulate_batch(
     """
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
         raise ValueError(f"threads = {threads!r}: must be a positive integer")
-    strokes = _checked_shots(shots)
+    strokes = checked_shots(shots)
     n = len(strokes)
     positions = _checked_states(table, states, n)
-    batch = Batch(
-        np.empty((n, N_BALLS, 2)), np.empty((n, N_BALLS), np.int8), np.empty(n, np.int8), np.empty(n, FACTS_DTYPE)
-    )
-    arguments = (
-        *(positions, strokes, batch.positions.reshape(n, 2 * N_BALLS), batch.pocket, batch.status),
-        *(
-            batch.facts.view(np.int32).reshape(n, FACTS_WORDS),
-            batch.facts.view(np.float64).reshape(n, FACTS_WORDS // 2),
-        ),
-        *(NO_TRACE, 0, NO_COUNTERS if counters is None else _checked_counters(counters, n)),
-    )
+    final, pocket = np.empty((n, N_BALLS, 2)), np.empty((n, N_BALLS), np.int8)
+    facts, counted = np.empty(n, FACTS_DTYPE), NO_COUNTERS if counters is None else _checked_counters(counters, n)
+    by_row = (strokes, final.reshape(n, 2 * N_BALLS), pocket, facts.view(np.int32).reshape(n, FACTS_WORDS))
     run, row = kernels().simulate_rows, parameters(table, event_limit)
 
     def part(first: int, last: int) -> None:
         if check is not None:
             check()
+        given = positions if len(positions) == 1 else positions[first:last]
         if not isinstance(states, TableState):
-            _refuse_bad_rows(row, positions, first, last)
-        run(row, *workspace(), *arguments, first, last)
+            _refuse_bad_rows(row, given, first)
+        shots, *outputs = (array[first:last] for array in by_row)
+        run(row, workspace(), given, shots, *outputs, NO_TRACE, counted[first:last])
 
     parts = 1 if threads == 1 else PARTS_PER_THREAD * threads
     if check is not None:
@@ -122,14 +114,23 @@ def simulate_batch(
     if threads == 1 or parts < 2:
         for first, last in pairwise(edges):
             part(first, last)
-        return batch
-    with ThreadPoolExecutor(threads) as pool:
-        for _ in pool.map(part, edges[:-1], edges[1:]):  # in order: the first bad row is the one named
-            pass
-    return batch
+    else:
+        with ThreadPoolExecutor(threads) as pool:
+            for _ in pool.map(part, edges[:-1], edges[1:]):  # in order: the first bad row is the one named
+                pass
+    return Batch(final, pocket, facts["status"].astype(np.int8), facts)
 
 
-def _checked_shots(shots: ArrayLike) -> NDArray[np.float64]:
+def checked_shots(shots: ArrayLike | Sequence[Shot]) -> NDArray[np.float64]:
+    """Return the shots as (n, 5) float64, columns v, phi, theta, a, b in Olympiad units.
+
+    Raises:
+        InvalidShot: wrong shape, or a value that is not finite; names the first bad row.
+    """
+    if isinstance(shots, Shot):
+        raise InvalidShot("shots", shots, "must be a list of shots, or rows (n, 5); write [shot] for a single one")
+    if isinstance(shots, list | tuple) and any(isinstance(shot, Shot) for shot in shots):
+        shots = [_row(number, shot) for number, shot in enumerate(shots)]
     try:
         given = np.asarray(shots)
     except ValueError:  # ragged
@@ -145,6 +146,13 @@ def _checked_shots(shots: ArrayLike) -> NDArray[np.float64]:
         row, column = bad[0].tolist()
         raise InvalidShot(f"shots[{row}].{FIELDS[column]}", float(strokes[row, column]), "must be a finite number")
     return strokes
+
+
+def _row(number: int, shot: object) -> tuple[float, ...]:
+    """One of a list of ``Shot``, as a row."""
+    if not isinstance(shot, Shot):
+        raise InvalidShot(f"shots[{number}]", shot, "must be a physics.Shot, as other shots of this list are")
+    return shot.v, shot.phi, shot.theta, shot.a, shot.b
 
 
 def _checked_counters(counters: NDArray[np.int64], n: int) -> NDArray[np.int64]:
@@ -165,14 +173,15 @@ def _checked_states(table: Table, states: TableState | NDArray[np.float64], n: i
     return positions.reshape(n, 2 * N_BALLS)
 
 
-def _refuse_bad_rows(parameters: NDArray[np.float64], positions: NDArray[np.float64], first: int, last: int) -> None:
-    """Raise for the first of rows ``first`` to ``last`` - 1 whose balls are off the table or overlap."""
+def _refuse_bad_rows(parameters: NDArray[np.float64], positions: NDArray[np.float64], first: int) -> None:
+    """Raise for the first of the rows whose balls are off the table or overlap; ``first``: the number of the first."""
     least = 2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE
     find = kernels().first_bad_row
-    row, ball, other = find(parameters, positions, least * least, PLACEMENT_TOLERANCE, first, last)
+    row, ball, other = find(parameters, workspace(), positions, least * least, PLACEMENT_TOLERANCE)
     if row < 0:
         return
     allowed = "must be two finite numbers inside the cushion lines and outside the mouths"
     if other >= 0:
         allowed = f"overlaps ball {other}; centres must be at least {2.0 * BALL_RADIUS} m apart"
-    raise InvalidState(f"states[{row}][{ball}]", positions[row, 2 * ball : 2 * ball + 2].tolist(), allowed)
+    place = positions[row, 2 * ball : 2 * ball + 2].tolist()
+    raise InvalidState(f"states[{first + row}][{ball}]", place, allowed)

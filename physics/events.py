@@ -2,20 +2,26 @@
 
 import dataclasses
 from enum import IntEnum, StrEnum
-from typing import Any
+from typing import Any, NoReturn
 
 from physics.constants import CUSHION_NAMES, POCKET_NAMES
+from physics.errors import shown
+from physics.kernels import layout
 
 
 class Motion(IntEnum):
     """Motion state of a ball ([I], section 3), or why it has none."""
 
-    STATIONARY = 0
-    SPINNING = 1
-    SLIDING = 2
-    ROLLING = 3
-    POCKETED = 4
-    ABSENT = 5
+    STATIONARY = layout.STATIONARY
+    SPINNING = layout.SPINNING
+    SLIDING = layout.SLIDING
+    ROLLING = layout.ROLLING
+    POCKETED = layout.POCKETED
+    ABSENT = layout.ABSENT
+
+
+OFF_TABLE = (Motion.POCKETED, Motion.ABSENT)
+"""Motion states of balls that are not in play."""
 
 
 class EventKind(StrEnum):
@@ -34,8 +40,12 @@ class EventKind(StrEnum):
     CONTACT = "contact"
     """A touching ball was parted or brought to rest by the contact rule; see docs/physics.md."""
 
+    @classmethod
+    def _missing_(cls, value: object) -> NoReturn:
+        raise ValueError(f"kind = {shown(value)}: must be one of {', '.join(cls)}")
 
-KINDS: tuple[EventKind, ...] = tuple(EventKind)
+
+KINDS: tuple[EventKind, ...] = tuple(sorted(EventKind, key=lambda kind: getattr(layout, kind.name)))
 """Kernels write a kind as its place in this tuple."""
 
 

@@ -3,9 +3,10 @@
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import ConfigDict, Field, ValidatorFunctionWrapHandler, WrapValidator
+from pydantic import BeforeValidator, ConfigDict, Field, ValidatorFunctionWrapHandler, WrapValidator
 
 from physics.constants import THETA_MAX, V_MAX
+from physics.pockets import POCKET_NUMBERS
 from physics.shot import Shot
 from protocol.terms import SIMULATIONS_MAX
 from protocol.values import Integer, Message, Number, ObjectBall, PocketNumber, Point, Request
@@ -35,13 +36,22 @@ class ShotParameters(Request):
         return cls(**shot.to_dict())
 
 
+def _numbered_pocket(value: Any) -> Any:
+    """The number of a pocket given by its name."""
+    return POCKET_NUMBERS.get(value, value) if isinstance(value, str) else value
+
+
 class CallRequest(Request):
     """The ball and the pocket called."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"ball": 3, "pocket": 0}]})
 
     ball: ObjectBall
-    pocket: Annotated[PocketNumber, Field(description="SW W NW NE E SE = 0..5.")]
+    pocket: Annotated[
+        PocketNumber,
+        BeforeValidator(_numbered_pocket),
+        Field(description="SW W NW NE E SE = 0..5; a request may give the name instead."),
+    ]
 
 
 def _one_kind_of_call(value: Any, handler: ValidatorFunctionWrapHandler) -> Any:

@@ -48,14 +48,14 @@ def _parser() -> argparse.ArgumentParser:
 def _port(text: str) -> int:
     port = int(text)
     if not 0 <= port <= 65535:
-        raise argparse.ArgumentTypeError(f"{port} is no port; allowed: 0 to 65535")
+        raise argparse.ArgumentTypeError(f"port = {port}: must be from 0 to 65535")
     return port
 
 
 def _count(text: str) -> int:
     count = int(text)
     if not 1 <= count <= MOST_PROCESSES:
-        raise argparse.ArgumentTypeError(f"{count} processes; allowed: 1 to {MOST_PROCESSES}")
+        raise argparse.ArgumentTypeError(f"processes = {count}: must be from 1 to {MOST_PROCESSES}")
     return count
 
 

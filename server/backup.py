@@ -29,7 +29,7 @@ def backup(url: str, target: Path) -> int:
     if not source.is_file():
         raise SettingsError(f"there is no database {source}")
     if target.exists():
-        raise SettingsError(f"{target} is there already; allowed: the name of a new file")
+        raise SettingsError(f"target = {target}: must be the name of a new file; this one exists")
     unfinished = target.with_name(f"{target.name}.unfinished")
     try:
         _copy(source, unfinished)

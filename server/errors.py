@@ -1,38 +1,17 @@
-"""Why a request is not carried out: one class per problem, its HTTP status on it, one handler for all.
+"""Why a request is not carried out: one class for each `ProblemCode`, which knows the HTTP status; one handler for all.
 
 ::
 
-    SettingsError                   the server cannot start
-    ServerError
-    ├── NotJson                 400
-    ├── BadHeader               400
-    │   └── TwoLengths          400
-    ├── Unauthorized            401
-    ├── Forbidden               403
-    ├── NotFound                404
-    ├── MethodNotAllowed        405
-    ├── SlowBody                408
-    ├── GameFinished            409
-    ├── GameUnfinished          409
-    ├── MatchUnfinished         409  of a match with untold noise
-    ├── TournamentUnfinished    409  of an event with untold noise
-    ├── NotYourTurn             409
-    ├── OutOfTime               409
-    ├── BudgetSpent             409
-    ├── WrongStatus             409
-    ├── NameTaken               409
-    ├── StaleVersion            412  carries the current view
-    ├── TooLarge                413
-    ├── UnsupportedMediaType    415
-    ├── Invalid                 422  a field of the request
-    ├── Refused                 422  by the referee
-    ├── KeyReused               422
-    ├── VersionRequired         428
-    ├── TooManyRequests         429  says whose limit it is and how long to wait
-    │   └── TooManyOpen         429  streams or long polls
-    ├── Internal                500  a fault of ours
-    ├── Draining                503
-    └── Unavailable             503  the database does not answer
+    SettingsError               the server cannot start
+    ServerError                 a class for each code, and
+    ├── BadHeader
+    │   └── TwoLengths          ends the connection
+    ├── TooLarge
+    │   └── HeadTooLarge        431
+    ├── Invalid
+    │   └── Refused             by the referee
+    └── TooManyRequests         says whose limit it is and how long to wait
+        └── TooManyOpen         streams or long polls
 """
 
 import logging
@@ -63,14 +42,19 @@ class SettingsError(ValueError):
 class ServerError(Exception):
     """A request that is not carried out.
 
-    `extensions` are further members of the problem (field, value, view, …).
+    A class named like a `ProblemCode` has that code, others that of their base. `extensions` are further members of the
+    problem (field, value, view, …).
     """
 
-    status: ClassVar[int]
     code: ClassVar[ProblemCode]
+    status: ClassVar[int]
     headers: ClassVar[Mapping[str, str]] = {}
     seconds: int | None = None
     """How long to wait before the next try, where that is known."""
+
+    def __init_subclass__(cls) -> None:
+        cls.code = ProblemCode.of_class(cls.__name__) or cls.code
+        cls.status = vars(cls).get("status", cls.code.status)
 
     def __init__(self, detail: str, **extensions: Any) -> None:
         super().__init__(detail)
@@ -79,19 +63,15 @@ class ServerError(Exception):
 
     def problem(self, instance: str) -> Problem:
         """The problem as it goes on the wire, about the address `instance`."""
-        return Problem.of(self.code, self.status, self.detail, instance=instance, **self.extensions)
+        return Problem.of(self.code, self.detail, self.status, instance=instance, **self.extensions)
 
 
 class NotJson(ServerError):
     """The body cannot be read as JSON."""
 
-    status, code = 400, ProblemCode.NOT_JSON
-
 
 class BadHeader(ServerError):
     """A header is malformed, or one that is needed is missing."""
-
-    status, code = 400, ProblemCode.BAD_HEADER
 
 
 class TwoLengths(BadHeader):
@@ -103,99 +83,69 @@ class TwoLengths(BadHeader):
 class Unauthorized(ServerError):
     """No token, or none that is valid."""
 
-    status, code = 401, ProblemCode.UNAUTHORIZED
     headers: ClassVar[Mapping[str, str]] = {"www-authenticate": 'Bearer realm="pooliad"'}
 
 
 class Forbidden(ServerError):
     """A valid token, but not for this."""
 
-    status, code = 403, ProblemCode.FORBIDDEN
-
 
 class NotFound(ServerError):
     """There is no such thing."""
-
-    status, code = 404, ProblemCode.NOT_FOUND
 
 
 class MethodNotAllowed(ServerError):
     """The address exists, but not for this method."""
 
-    status, code = 405, ProblemCode.METHOD_NOT_ALLOWED
-
 
 class SlowBody(ServerError):
     """The body did not arrive in time; the rest of it is not waited for."""
 
-    status, code = 408, ProblemCode.SLOW_BODY
     headers: ClassVar[Mapping[str, str]] = {"connection": "close"}
 
 
 class GameFinished(ServerError):
     """The game is over."""
 
-    status, code = 409, ProblemCode.GAME_FINISHED
-
 
 class GameUnfinished(ServerError):
     """The game is still on."""
-
-    status, code = 409, ProblemCode.GAME_UNFINISHED
 
 
 class MatchUnfinished(ServerError):
     """The match has untold noise and is still on."""
 
-    status, code = 409, ProblemCode.MATCH_UNFINISHED
-
 
 class TournamentUnfinished(ServerError):
     """The tournament has untold noise and is still on."""
-
-    status, code = 409, ProblemCode.TOURNAMENT_UNFINISHED
 
 
 class NotYourTurn(ServerError):
     """It is the other player's turn."""
 
-    status, code = 409, ProblemCode.NOT_YOUR_TURN
-
 
 class OutOfTime(ServerError):
     """The mover's clock had run out when the request was complete."""
-
-    status, code = 409, ProblemCode.OUT_OF_TIME
 
 
 class BudgetSpent(ServerError):
     """More shots were simulated, or are to be, than the player's budget has left."""
 
-    status, code = 409, ProblemCode.BUDGET_SPENT
-
 
 class WrongStatus(ServerError):
     """The match is not in a state that allows this."""
-
-    status, code = 409, ProblemCode.WRONG_STATUS
 
 
 class NameTaken(ServerError):
     """Another agent has this name."""
 
-    status, code = 409, ProblemCode.NAME_TAKEN
-
 
 class StaleVersion(ServerError):
     """The request answers an older view than the current one."""
 
-    status, code = 412, ProblemCode.STALE_VERSION
-
 
 class TooLarge(ServerError):
     """The body is larger than the server takes."""
-
-    status, code = 413, ProblemCode.TOO_LARGE
 
 
 class HeadTooLarge(TooLarge):
@@ -207,16 +157,12 @@ class HeadTooLarge(TooLarge):
 class UnsupportedMediaType(ServerError):
     """The body does not say that it is JSON."""
 
-    status, code = 415, ProblemCode.UNSUPPORTED_MEDIA_TYPE
-
 
 class Invalid(ServerError):
     """Fields that are missing, unknown, of the wrong type or out of range.
 
     Lists every fault, the first on top.
     """
-
-    status, code = 422, ProblemCode.INVALID
 
     def __init__(self, faults: Sequence[Fault]) -> None:
         first = faults[0]
@@ -228,19 +174,13 @@ class Invalid(ServerError):
 class Refused(Invalid):
     """The referee does not allow this stroke or decision; nothing happened and the clock runs on."""
 
-    status, code = 422, ProblemCode.REFUSED
-
 
 class KeyReused(ServerError):
     """The Idempotency-Key came before, with another body."""
 
-    status, code = 422, ProblemCode.KEY_REUSED
-
 
 class VersionRequired(ServerError):
     """The request does not say which version of the game it answers."""
-
-    status, code = 428, ProblemCode.VERSION_REQUIRED
 
 
 class TooManyRequests(ServerError):
@@ -249,8 +189,6 @@ class TooManyRequests(ServerError):
     Args:
         key: whose limit it is. seconds: how long to wait. allowed: what is allowed.
     """
-
-    status, code = 429, ProblemCode.TOO_MANY_REQUESTS
 
     def __init__(self, key: str, seconds: int, allowed: str) -> None:
         super().__init__(
@@ -272,7 +210,7 @@ class TooManyOpen(TooManyRequests):
     def __init__(self, key: str, what: str, taken: int, most: int) -> None:
         ServerError.__init__(
             self,
-            f"the {key} has {taken} {what} open; allowed: at most {most} at once",
+            f"the {key} has {taken} {what} open: must be at most {most} at once",
             field=what,
             value=taken,
             allowed=f"at most {most} at once of the {key}",
@@ -283,26 +221,22 @@ class TooManyOpen(TooManyRequests):
 class Internal(ServerError):
     """A fault of the server; the log has the traceback."""
 
-    status, code = 500, ProblemCode.INTERNAL
-
 
 class Draining(ServerError):
     """The server is shutting down."""
 
-    status, code = 503, ProblemCode.DRAINING
     headers: ClassVar[Mapping[str, str]] = {"retry-after": "1"}
 
 
 class Unavailable(ServerError):
     """The database does not answer: it is lost, or somebody has it locked."""
 
-    status, code = 503, ProblemCode.UNAVAILABLE
     headers: ClassVar[Mapping[str, str]] = {"retry-after": "1"}
 
 
 def invalid_field(field: str, value: object, allowed: str) -> Invalid:
     """The error for one field found wrong by hand."""
-    detail = f"{field} is {shown(value)!r}; allowed: {allowed}"
+    detail = f"{field} = {shown(value)!r}: must be {allowed}"
     return Invalid([Fault(code="value", field=field, value=shown(value), allowed=allowed, detail=detail)])
 
 

@@ -37,7 +37,7 @@ def parse(text: str) -> Failpoint:
         return _go_on
     name, _, times = text.partition(":")
     if name not in POINTS or not (times == "" or (times.isdecimal() and int(times) > 0)):
-        raise SettingsError(f"failpoint is {text!r}; allowed: NAME or NAME:TIMES, NAME one of {', '.join(POINTS)}")
+        raise SettingsError(f"failpoint = {text!r}: must be NAME or NAME:TIMES, NAME one of {', '.join(POINTS)}")
     return _deadly(name, int(times or 1))
 
 

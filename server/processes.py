@@ -35,7 +35,7 @@ _spawn = multiprocessing.get_context("spawn")
 def serve_by_many(settings: Settings, host: str, port: int, count: int) -> None:
     """Serve with `count` processes until a signal; raises `SettingsError` unless the database is PostgreSQL."""
     if not postgresql.is_ours(settings.database):
-        raise SettingsError(f"processes is {count}; allowed: 1 with SQLite, more with a postgresql:// database")
+        raise SettingsError(f"processes = {count}: must be 1 with SQLite; more need a postgresql:// database")
     with listening(host, port) as server_socket, tempfile.TemporaryDirectory(prefix="pooliad-metrics-") as folder:
         os.environ.setdefault(SHARED_FOLDER, folder)
         _Supervisor(server_socket, settings).run(count)

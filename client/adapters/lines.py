@@ -1,15 +1,18 @@
 """A command that is spoken to in lines: one is written to its standard input, one is read from its output."""
 
 import contextlib
+import fcntl
 import os
 import select
 import signal
+import struct
 import subprocess
+import termios
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from client.errors import AgentFailed
+from client.errors import AgentFailed, AgentUnstartable
 
 LONGEST_LINE = 1024 * 1024
 """Bytes of one answer unless told; a stroke needs two hundred."""
@@ -19,6 +22,8 @@ LEAVING_SECONDS = 2.0
 """Seconds a command gets to leave after its input is closed, and once more after SIGTERM."""
 LOOK_EVERY = 0.25
 """Seconds between looks whether a command that is silent still runs."""
+READING_EVERY = 0.005
+"""Seconds between looks whether a command that was just started has read its first line."""
 LAST_WORDS = 400
 """Bytes of its standard error that an error message repeats."""
 
@@ -46,7 +51,7 @@ class LineProcess:
         longest: bytes of a line, and of all that it writes unasked.
 
     Raises:
-        AgentFailed: it cannot be started. Methods raise `Silent`, `Left` and `Flooded`; all deadlines are of
+        AgentUnstartable: it cannot be started. Methods raise `Silent`, `Left` and `Flooded`; all deadlines are of
             `time.monotonic`.
     """
 
@@ -76,7 +81,7 @@ class LineProcess:
                     start_new_session=True,
                 )
         except OSError as error:
-            raise AgentFailed(f"{self._name} cannot be started: {error}") from error
+            raise AgentUnstartable(f"{self._name} cannot be started: {error}") from error
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         self._to, self._from = self._process.stdin.fileno(), self._process.stdout.fileno()
@@ -96,6 +101,13 @@ class LineProcess:
                 continue
             except BrokenPipeError:
                 raise self._left("input") from None
+
+    def await_reading(self, deadline: float) -> None:
+        """Wait until it has read what was sent, which shows that it runs; or until the deadline."""
+        while _unread(self._to) and time.monotonic() < deadline:
+            if self._process.poll() is not None:
+                raise self._left()
+            time.sleep(READING_EVERY)
 
     def receive(self, deadline: float) -> str:
         """The next line, without its end."""
@@ -202,3 +214,8 @@ def _is_ready(end: int, event: int, seconds: float) -> bool:
     poll = select.poll()
     poll.register(end, event)
     return bool(poll.poll(seconds * 1000.0))
+
+
+def _unread(end: int) -> int:
+    """Bytes in a pipe that nobody has read yet."""
+    return int(struct.unpack("i", fcntl.ioctl(end, termios.FIONREAD, b"\0" * 4))[0])

@@ -19,9 +19,9 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from client.adapters.lines import LineProcess
+from client.adapters.lines import Left, LineProcess
 from client.agent import Agent
-from client.errors import AgentFailed, NonsenseAnswer
+from client.errors import AgentFailed, AgentUnstartable, NonsenseAnswer
 from physics import PhysicsError
 from protocol import (
     BatchRequest,
@@ -50,7 +50,8 @@ class StdioAgent(Agent):
     """Plays what a command says.
 
     When the command leaves, is silent until the clock is out, or answers nonsense, `choose` raises `AgentFailed`;
-    the next time it is asked the command is started anew, without memory of the game.
+    the next time it is asked the command is started anew, without memory of the game. A command that leaves before it
+    has read a line raises `AgentUnstartable`.
 
     Args:
         command: program and arguments; it is started in the current directory.
@@ -76,6 +77,7 @@ class StdioAgent(Agent):
         if not given:
             self._tidy = weakref.finalize(self, _remove_if_empty, self._errors)
         log.info("game %s: standard error of %s is in %s", view.game, list(self._command), self._errors)
+        self._running(view, time.monotonic() + self._seconds(view))
 
     def choose(self, view: View) -> Action:
         """The command's answer to the turn."""
@@ -106,11 +108,19 @@ class StdioAgent(Agent):
             self._tidy()
 
     def _running(self, view: View, deadline: float) -> LineProcess:
-        """The command, started if it does not run."""
+        """The command, started and reading if it did not run."""
         if self._process is None:
-            self._process = LineProcess(self._command, self._errors)
-            self._stop = weakref.finalize(self, self._process.stop)
-            self._process.send(_message("game_started", game=view.game, view=_plain(view)), deadline)
+            process = self._process = LineProcess(self._command, self._errors)
+            self._stop = weakref.finalize(self, process.stop)
+            try:
+                process.send(_message("game_started", game=view.game, view=_plain(view)), deadline)
+                process.await_reading(deadline)
+            except Left as error:
+                self._end()
+                raise AgentUnstartable(f"{error}; it had not read a line") from None
+            except AgentFailed:
+                self._end()
+                raise
         return self._process
 
     def _end(self) -> None:
@@ -140,7 +150,7 @@ class StdioAgent(Agent):
         name, asked = question["ask"], {key: value for key, value in question.items() if key != "ask"}
         try:
             if not isinstance(name, str) or name not in _QUESTIONS:
-                raise AgentFailed(f"ask is {name!r}; allowed: {', '.join(_QUESTIONS)}")
+                raise AgentFailed(f"ask = {name!r}: must be one of {', '.join(_QUESTIONS)}")
             model, answer = _QUESTIONS[name]
             scene = {"table": view.table, **({} if "tables" in asked else {"balls": _plain(view)["balls"]})}
             return _message("answer", **_plain(answer(self, model.model_validate(scene | asked))))
@@ -193,7 +203,7 @@ def _read(line: str) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         raise NonsenseAnswer(f"the command answered {line[:SHOWN]!r}, which is no JSON: {error}") from None
     if not isinstance(said, dict):
-        raise NonsenseAnswer(f"the command answered {line[:SHOWN]!r}; allowed: an object with shot or decision")
+        raise NonsenseAnswer(f"answer = {line[:SHOWN]!r}: must be an object with shot or decision")
     return said
 
 

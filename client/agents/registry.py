@@ -3,6 +3,7 @@
 import importlib
 import re
 import shlex
+import shutil
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -39,7 +40,7 @@ def load(name: str, seed: int | None = None) -> AgentFactory:
         seed: makes a shipped agent repeat its choices; other agents keep their own randomness.
 
     Raises:
-        AgentNotFound: no such name, option, module or class, or the class is no `client.Agent`.
+        AgentNotFound: no such name, option, module, class or program, or the class is no `client.Agent`.
     """
     shipped, _, options = name.partition(":")
     if shipped in SHIPPED:
@@ -111,6 +112,8 @@ def _command(name: str) -> AgentFactory:
         raise AgentNotFound(f"agent {name!r} is no command: {error}") from None
     if not command:
         raise AgentNotFound(f"agent {name!r} names no command; it goes like stdio:perl my_agent.pl")
+    if shutil.which(command[0]) is None:
+        raise AgentNotFound(f"agent {name!r}: {command[0]!r} is no program that can be run here")
     return partial(StdioAgent, command)
 
 

@@ -96,6 +96,11 @@ class EventDirectory:
             yield
 
 
+def file_name(name: str) -> str:
+    """A file's name for an entrant."""
+    return "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in name)
+
+
 def write_whole(path: Path, data: bytes, mode: int = 0o644) -> None:
     """Write a file that is there whole or not at all, whatever interrupts."""
     partial = path.with_name(f"{path.name}.{os.getpid()}.new")

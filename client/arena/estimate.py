@@ -5,7 +5,9 @@ import time
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from client.arena.executors import InProcess
 from client.arena.hosting import Kind
+from client.arena.preflight import require_startable
 from client.arena.tasks import play_pair
 from client.arena.terms import Terms
 from tournament import Tournament
@@ -44,7 +46,12 @@ class Estimate:
 
 
 def estimate(terms: Terms, workers: int) -> Estimate:
-    """Estimate an event's duration; plays for about a minute, or one game if that takes longer."""
+    """Estimate an event's duration; plays for about a minute, or one game if that takes longer.
+
+    Raises:
+        EventError: an entrant cannot be made or started.
+    """
+    require_startable(terms, InProcess())
     spec = terms.spec
     least, most = games_of(spec)
     times = sample(terms)

@@ -8,8 +8,8 @@ import contextlib
 import multiprocessing
 import os
 import signal
-from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, Protocol
 
@@ -25,6 +25,9 @@ AHEAD = 2
 """Pairs under way for each worker of a cluster, so that none waits for the next."""
 
 
+Work = Callable[[Any], Any]
+
+
 class WorkerLost(Exception):
     """A worker died over a pair; what it had played is kept, and the pair can be given out again."""
 
@@ -38,6 +41,9 @@ class Pool(Protocol):
 
     def submit(self, task: PairTask) -> "Future[PairDone]":
         """Give a pair out. Its future raises ``WorkerLost`` through ``result_of`` when its worker died."""
+
+    def everywhere(self, work: Work, tasks: Sequence[Any]) -> list[Any]:
+        """What ``work`` makes of each task, on every machine that plays."""
 
     def stop(self) -> None:
         """Let go of everything at once; games that are going on are broken off."""
@@ -68,6 +74,10 @@ class InProcess:
         """Play it."""
         return _Immediate().submit(play_pair, task)
 
+    def everywhere(self, work: Work, tasks: Sequence[Any]) -> list[Any]:
+        """One after the other."""
+        return [work(task) for task in tasks]
+
     def stop(self) -> None:
         """Nothing goes on."""
 
@@ -94,6 +104,11 @@ class Processes:
             self._pool.shutdown(wait=True)
             self._pool = self._fresh()
             return self._pool.submit(play_pair, task)
+
+    def everywhere(self, work: Work, tasks: Sequence[Any]) -> list[Any]:
+        """In threads of this process, as many as there are workers: the machine is theirs."""
+        with ThreadPoolExecutor(self.capacity) as threads:
+            return list(threads.map(work, tasks))
 
     def stop(self) -> None:
         """End the workers, and with them their games."""
@@ -140,6 +155,11 @@ class Dask:
         """Give it out."""
         return self._executor.submit(play_pair, task)
 
+    def everywhere(self, work: Work, tasks: Sequence[Any]) -> list[Any]:
+        """On every worker there is now."""
+        found: dict[str, list[Any]] = self._client.run(_each, work, list(tasks))
+        return [each for answers in found.values() for each in answers]
+
     def stop(self) -> None:
         """Withdraw what is not done, and leave the cluster."""
         self._executor.shutdown(wait=False)
@@ -184,6 +204,10 @@ def start_worker(parent: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     end_with_parent(parent, signal.SIGKILL)
     find_here()
+
+
+def _each(work: Work, tasks: Sequence[Any]) -> list[Any]:
+    return [work(task) for task in tasks]
 
 
 class _Immediate(Executor):

@@ -6,24 +6,27 @@ this game so far. What the agent prints goes to standard error, so that it canno
 """
 
 import argparse
+import errno
 import json
 import os
 import sys
-import traceback
 from functools import partial
 from typing import Any, BinaryIO
 
 from client.agent import AgentFactory
 from client.agents.registry import load
 from client.errors import AgentFailed, NonsenseAnswer
-from client.players import Instance
+from client.local_game import Lost, Timing, play_game
+from client.session import AgentSession, GameSessions, Session
+from physics import Table
 from protocol import TURN_MESSAGE, GameOver, Turn, View
-from referee import Action, SimulationBudget
+from referee import Action, EightBall, EndReason, NoiseModel
+from referee.play import MatchSeed, nanoseconds
 
 REFUSED = b'{"type": "refused"'
 """How a line begins that says why the last action was not accepted."""
 GONE = 70
-"""Exit code when the command behind an agent is gone."""
+"""Exit code when an agent cannot be asked again: its command is gone, or a file has reached the limit."""
 
 
 def main() -> None:
@@ -32,6 +35,12 @@ def main() -> None:
     find_here()
     answers = _private_output()
     factory = partial(load(options.name, options.seed), **json.loads(options.options))
+    if options.check is not None:
+        try:
+            AgentSession(factory).start(_opening(options.check))
+        except Exception as error:  # the session has shown the traceback
+            sys.exit(f"{type(error).__name__}: {error}")
+        return
     server = _LineHost(factory)
     for line in sys.stdin.buffer:
         answer = server.answer(line)
@@ -41,72 +50,52 @@ def main() -> None:
 
 
 class _LineHost:
-    """An agent's instances, one a game."""
+    """An agent's sessions, and the answers to the lines about them."""
 
     def __init__(self, factory: AgentFactory) -> None:
-        self._factory = factory
-        self._instances: dict[str, Instance] = {}
-        self._asked: Instance | None = None
+        self._sessions = GameSessions(factory)
+        self._asked: Session | None = None
 
     def answer(self, line: bytes) -> dict[str, Any] | None:
         """What a line is answered with; None when nothing is expected."""
         if line.startswith(REFUSED):
-            self._refused(str(json.loads(line)["reason"]))
+            if self._asked is not None:
+                self._asked.refused(str(json.loads(line)["reason"]))
             return None
         message = TURN_MESSAGE.validate_json(line)
         if isinstance(message, Turn):
             return self._turn(message)
         if isinstance(message, GameOver):
-            self._over(message)
+            self._sessions.over(message)
         return None
 
     def _turn(self, turn: Turn) -> dict[str, Any]:
+        self._asked = session = self._sessions.of(turn.view)
         try:
-            self._asked = instance = self._of(turn)
-            action = instance.choose(turn.view)
-            if not isinstance(action, Action):
-                raise TypeError(f"choose returned {action!r}, which is no client.Action")
-        except AgentFailed as error:
-            traceback.print_exc()
-            if not isinstance(error, NonsenseAnswer):  # the command behind it has left: so does this process
-                sys.exit(GONE)
+            action = session.ask(turn.view)
+        except NonsenseAnswer as error:
             return {"error": str(error)}
+        except AgentFailed:  # it cannot be made, or the command behind it has left: so does this process
+            sys.exit(GONE)
         except Exception as error:
-            traceback.print_exc()
+            if isinstance(error, OSError) and error.errno == errno.EFBIG:
+                sys.exit(GONE)  # it has filled its log or another file
             return {"error": f"{type(error).__name__}: {error}"}
-        return action.to_dict() | {"simulated": instance.budget.used}
-
-    def _of(self, turn: Turn) -> Instance:
-        instance = self._instances.setdefault(turn.game, Instance(self._factory, SimulationBudget()))
-        _limit(instance.budget, turn.view)
-        return instance
-
-    def _refused(self, reason: str) -> None:
-        try:
-            if self._asked is not None:
-                self._asked.refused(reason)
-        except Exception:
-            traceback.print_exc()
-
-    def _over(self, over: GameOver) -> None:
-        instance = self._instances.pop(over.game, None)
-        try:
-            if instance is not None:
-                instance.game_over(over)
-        except Exception:
-            traceback.print_exc()
+        session.declared(session.undeclared)
+        return action.to_dict() | {"simulated": session.budget.used}
 
 
-def _limit(budget: SimulationBudget, view: View) -> None:
-    """Let the budget grant what the referee says is left, and never more than it did.
+def _opening(seconds: float) -> View:
+    """What the player who breaks sees, with so many seconds on its clock."""
+    seen: list[View] = []
 
-    This process may have joined in the middle of the game. Shots that it has not told of yet, because its agent
-    failed after them, are still in what is left.
-    """
-    left = None if view.seat is None else view.clocks[view.seat].simulations_left
-    if left is not None:
-        granted = budget.used + left
-        budget.allowed = granted if budget.allowed is None else min(budget.allowed, granted)
+    def look(view: View) -> Action:
+        seen.append(view)
+        raise Lost(EndReason.FORFEIT)
+
+    timing = Timing(nanoseconds(seconds), lambda: 0)
+    play_game(EightBall(Table.olympiad()), (look, look), MatchSeed.of(0).game(0), NoiseModel(1.0), timing=timing)
+    return seen[0]
 
 
 def find_here() -> None:
@@ -129,6 +118,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("name", help="as for `pooliad agent run`")
     parser.add_argument("--seed", type=int, help="makes a shipped agent repeat its choices")
+    words = "only make it and start it, in so many seconds; leaves with 1 if that fails"
+    parser.add_argument("--check", type=float, metavar="SECONDS", help=words)
     parser.add_argument("--options", default="{}", help="keyword arguments for the class, as a JSON object")
     return parser
 

@@ -14,6 +14,7 @@ from client.arena.cores import CoreLease
 from client.arena.hosting import Hosting
 from client.errors import AgentFailed
 from client.local_game import Lost
+from client.session import Session
 from protocol import GameOver, Turn, View
 from referee import Action, EndReason, SimulationBudget
 from referee.record.canonical import parse
@@ -28,7 +29,7 @@ SHOWN = 60
 """Characters of what it said unasked that a report repeats."""
 
 
-class ProcessSeat:
+class ProcessSeat(Session):
     """``client.arena.hosted_agents`` at the table.
 
     A turn is a line ``{"type": "turn", "game": …, "view": …}`` on its standard input, as ``GET /v1/turns`` gives it;
@@ -40,30 +41,35 @@ class ProcessSeat:
         seed: for agents of this package.
         log: where its standard error goes; nowhere if None.
         tell: told what goes wrong, in a sentence.
+        clocks: whether the game's clocks bound its answers; else `answer_seconds` of its hosting does.
     """
 
-    def __init__(self, hosting: Hosting, seed: int, log: Path | None, tell: Callable[[str], None]) -> None:
+    def __init__(
+        self, hosting: Hosting, seed: int, log: Path | None, tell: Callable[[str], None], *, clocks: bool = True
+    ) -> None:
         self._hosting = hosting
         self._command = hosting.command(seed)
         self._log = log
         self._tell = tell
         self._lease = CoreLease(hosting.cores)
+        self._clocks = clocks
         self._process: LineProcess | None = None
-        self._budget = SimulationBudget()
+        super().begin(SimulationBudget())
         self._simulated = 0
-        self._asked = False
 
     def begin(self, budget: SimulationBudget) -> None:
         """Have it run, so that it can load while the other seat does; one that failed is started again."""
-        self._budget, self._simulated, self._asked = budget, 0, False
+        super().begin(budget)
+        self._simulated = 0
         self._require_process()
 
-    def ask(self, view: View, seconds: float | None) -> Action:
+    def ask(self, view: View) -> Action:
         """Its answer to a turn."""
+        seconds = None if view.seat is None or not self._clocks else view.clocks[view.seat].seconds_left
         limit = self._hosting.answer_seconds if seconds is None else seconds
         deadline = time.monotonic() + limit
         process = self._require_process()
-        self._asked = True
+        self.last = view
         try:
             if said := process.unasked():  # it must not pass for the answer to this turn
                 self._tell(f"said {said[0][:SHOWN]!r} without being asked")
@@ -103,7 +109,7 @@ class ProcessSeat:
 
     def _tell_if_there(self, line: str) -> None:
         """Send what needs no answer; what it does with the news is its own affair."""
-        if self._process is not None and self._asked:
+        if self._process is not None and self.last is not None:
             with contextlib.suppress(AgentFailed):
                 self._process.send(line, time.monotonic() + NEWS_SECONDS)
 
@@ -147,7 +153,7 @@ class ProcessSeat:
         """
         if isinstance(simulated, bool) or not isinstance(simulated, int) or simulated < self._simulated:
             raise ValueError(f"simulated = {simulated!r}: an integer, at least {self._simulated}")
-        self._budget.spend(simulated - self._simulated)
+        self.budget.spend(simulated - self._simulated)
         self._simulated = simulated
 
     def _kill(self, why: str) -> None:

@@ -9,30 +9,22 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from pydantic import ValidationError
-
-from client.arena.directory import EventDirectory, EventError, write_whole
+from client.arena.directory import EventDirectory, EventError, file_name, write_whole
+from client.arena.executors import InProcess
 from client.arena.hosting import Hosting, Kind
+from client.arena.preflight import require_startable
 from client.arena.process import ProcessSeat
 from client.arena.resumable_game import LONGEST_REPORT
 from client.arena.runner import Observer
 from client.arena.terms import Terms
-from client.errors import (
-    ApiError,
-    BudgetSpent,
-    Conflict,
-    MatchUnfinished,
-    NameTaken,
-    PooliadError,
-    TournamentUnfinished,
-    Unprocessable,
-)
+from client.errors import ApiError, MatchUnfinished, NameTaken, TournamentUnfinished
 from client.http import Pooliad
 from client.local_game import TRIES, Lost
 from client.retry import Retry
-from protocol import GameOver, NumberedEntry, SeedWanted, TournamentRequest, Turn, View
-from referee import Action, EndReason, Outcome, SimulationBudget
-from referee.play.seeds import SEED_BYTES
+from client.run import TurnLoop
+from client.session import GameSessions, Session
+from protocol import GameOver, NumberedEntry, TournamentRequest, View
+from referee import EndReason, Outcome, SimulationBudget
 from referee.record import read_record
 from tournament import GameResult, Spec, Tournament, TournamentError
 from tournament.ledger import Ledger
@@ -65,6 +57,10 @@ class RemoteTournament:
     agents: dict[str, str]
 
 
+class Stopped(Exception):
+    """The runner leaves; no further turn is played."""
+
+
 class RemoteRunner:
     """One event at one server, from making it, or from wherever it stands, to its end.
 
@@ -91,10 +87,12 @@ class RemoteRunner:
         """Play until the event is finished, paused or aborted.
 
         Raises:
-            EventError: a remote entrant has no agent at the server; the directory is another server's.
+            EventError: an entrant cannot be made or started, a remote one has no agent at the server; the directory is
+                another server's.
             client.PooliadError: what the server does not accept.
         """
         with self._directory.alone(), Pooliad(self._url, self._token) as server:
+            require_startable(self._terms, InProcess(), self._directory.logs)
             self._journal.append("begun")
             place = self._place(server)
             self._look()
@@ -153,7 +151,7 @@ class RemoteRunner:
         """The hosted entrants at work, each with a token of its own, a thread and a process."""
         hosted = {name: each for name, each in self._terms.hosting.items() if each.kind is not Kind.REMOTE}
         tokens = {name: server.rotate_token(place.agents[name]).token for name in hosted}
-        players = [_Player(self, name, hosted[name], tokens[name]) for name in hosted]
+        players = [_Entrant(self, name, hosted[name], tokens[name]) for name in hosted]
         threads = [threading.Thread(target=player.play) for player in players]
         for thread in threads:
             thread.start()
@@ -239,11 +237,6 @@ class RemoteRunner:
         write_whole(path, record)
         return replace(result, record=f"{GAMES}/{path.name}")
 
-    @property
-    def has_clocks(self) -> bool:
-        """Whether the event's terms have a clock; a match at a server always has one, else of a day."""
-        return self._terms.spec.seconds is not None
-
     def rests(self, seconds: float = 0.0) -> bool:
         """Whether the entrants are to leave, now or within ``seconds``."""
         return self._stop.wait(seconds)
@@ -254,8 +247,9 @@ class RemoteRunner:
 
     def seat(self, name: str, hosting: Hosting) -> ProcessSeat:
         """The entrant's process. At a server every hosted entrant has one: their clocks run at the same time."""
-        log = self._directory.logs / f"{_slug(name)}.log"
-        return ProcessSeat(hosting, self._terms.agent_seed, log, lambda what: self.incident(name, what))
+        log = self._directory.logs / f"{file_name(name)}.log"
+        clocks = self._terms.spec.seconds is not None  # a match at a server always has one, else of a day
+        return ProcessSeat(hosting, self._terms.agent_seed, log, lambda what: self.incident(name, what), clocks=clocks)
 
     def connection(self, token: str) -> Pooliad:
         """A connection with an entrant's token."""
@@ -269,86 +263,56 @@ class RemoteRunner:
             server.forfeit(view.game, view.seat, reason)  # type: ignore[arg-type]
 
 
-class _Player:
-    """One hosted entrant: turns from the server to its process, actions back."""
+class _Entrant(GameSessions):
+    """One hosted entrant: its one process plays every game, and the journal has what it did wrong."""
 
     def __init__(self, runner: RemoteRunner, name: str, hosting: Hosting, token: str) -> None:
-        self._runner = runner
-        self._name = name
-        self._token = token
+        self._runner, self._name, self._token = runner, name, token
         self.seat = runner.seat(name, hosting)
         self._game = ""
-        self._budget = SimulationBudget()
-        self._declared = 0
         self._bad = 0
 
     def play(self) -> None:
         """Play every turn until the runner stops; whatever goes wrong is noted, and tried again."""
         with contextlib.closing(self.seat), self._runner.connection(self._token) as server:
+            loop = TurnLoop(server, self, poll=POLL, pause=lambda seconds: None)
             while not self._runner.rests():
                 try:
-                    self._next(server, self.seat)
+                    loop.next_message()
+                except Stopped:
+                    return
                 except Exception as error:
-                    self._runner.incident(self._name, f"{type(error).__name__}: {error}"[:LONGEST_REPORT])
+                    self._note(f"{type(error).__name__}: {error}")
                     self._runner.rests(PAUSE)
 
-    def _next(self, server: Pooliad, seat: ProcessSeat) -> None:
-        message = server.turns(POLL)
-        if isinstance(message, Turn):
-            view: View | None = message.view
-            while view is not None and view.my_turn and not self._runner.rests():
-                view = self._answer(server, seat, view)
-        elif isinstance(message, SeedWanted):
-            with contextlib.suppress(Conflict):  # too late is no harm
-                server.add_seed(message.match, secrets.token_hex(SEED_BYTES))
-        elif isinstance(message, GameOver):
-            seat.over(message)
-
-    def _answer(self, server: Pooliad, seat: ProcessSeat, view: View) -> View | None:
-        """Ask for an action and send it; None when the turn is to be read again."""
-        action = self._ask(seat, view)
-        if action is None:
-            return None
-        simulated = self._budget.used - self._declared
-        try:
-            answer = server.play(view.game, view.version, action, simulated=simulated)
-        except (Unprocessable, BudgetSpent, ValidationError) as error:
-            seat.refused(str(error))
-            self._count_bad(view, error)
-        except PooliadError as error:
-            self._runner.incident(self._name, f"{view.game}: {error}"[:LONGEST_REPORT])
-        else:
-            self._declared += simulated
-            self._bad = 0
-            return answer.view
-        return None
-
-    def _ask(self, seat: ProcessSeat, view: View) -> Action | None:
-        clock = None if view.seat is None else view.clocks[view.seat]
+    def of(self, view: View) -> Session:
+        """The process, in a new game if it is one."""
+        if self._runner.rests():
+            raise Stopped
         if view.game != self._game:
-            self._game, self._declared, self._bad = view.game, 0, 0
-            self._budget = SimulationBudget(None if clock is None else clock.simulations_left)
-            seat.begin(self._budget)
-        if clock is not None and clock.simulations_left is not None and self._budget.allowed is not None:
-            # An action whose answer was lost may have been carried out: the server knows what was declared.
-            self._declared = self._budget.allowed - clock.simulations_left
-        try:
-            return seat.ask(view, clock.seconds_left if clock and self._runner.has_clocks else None)
-        except Lost as lost:
-            self._runner.lost(view, lost.reason.value)
-        except Exception as error:
-            self._count_bad(view, error)
-        return None
+            self._game, self._bad = view.game, 0
+            self.seat.begin(SimulationBudget())
+        self.seat.told(view)
+        return self.seat
 
-    def _count_bad(self, view: View, error: Exception) -> None:
+    def over(self, message: GameOver) -> None:
+        """Tell the process."""
+        self.seat.over(message)
+
+    def failed(self, view: View, error: Exception) -> None:
         """A bad answer; so many in a row as end a local game end this one too."""
+        if isinstance(error, Lost):
+            self._runner.lost(view, error.reason.value)
+            return
         self._bad += 1
         if self._bad == 1:
-            self._runner.incident(self._name, f"{view.game}: bad answer: {error}"[:LONGEST_REPORT])
+            self._note(f"{view.game}: bad answer: {error}")
         if self._bad >= TRIES:
             self._runner.lost(view, EndReason.FORFEIT.value)
 
+    def acted(self) -> None:
+        """It answers well again."""
+        self._bad = 0
 
-def _slug(name: str) -> str:
-    """A file's name for an entrant."""
-    return "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in name)
+    def _note(self, what: str) -> None:
+        self._runner.incident(self._name, what[:LONGEST_REPORT])

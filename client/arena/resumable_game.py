@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import IO, Any
 
 from client.arena.directory import flush_folder
-from client.arena.seats import Seat
 from client.local import over_message
 from client.local_game import TRIES, BadAction, Lost, PlayedGame, Watch, play_game, points_of
+from client.session import Session
 from physics import Table
 from protocol import View
 from referee import Action, EightBall, EndReason, GameSeeds, NoiseModel
@@ -57,7 +57,7 @@ class Diverged(Exception):
     """The record of a game that was broken off does not follow from its seeds: another engine began it."""
 
 
-def play(task: GameTask, seats: tuple[Seat, Seat], folder: Path | None, tell: Tell) -> tuple[GameResult, str]:
+def play(task: GameTask, seats: tuple[Session, Session], folder: Path | None, tell: Tell) -> tuple[GameResult, str]:
     """Play a game to its end, unless that was done before.
 
     In ``folder`` the game leaves ``ID.part`` while it goes on, and ``ID.jsonl``, its record, when it is over.
@@ -85,7 +85,9 @@ def play(task: GameTask, seats: tuple[Seat, Seat], folder: Path | None, tell: Te
         return found
 
 
-def _played(task: GameTask, seats: tuple[Seat, Seat], notes: "_Notes | None", tell: Tell) -> tuple[GameResult, str]:
+def _played(
+    task: GameTask, seats: tuple[Session, Session], notes: "_Notes | None", tell: Tell
+) -> tuple[GameResult, str]:
     try:
         game = _Game(task, seats, notes, tell)
         played = game.play()
@@ -189,7 +191,7 @@ def _complete_lines(path: Path) -> list[str]:
 class _Game:
     """A game being played, perhaps for the second time up to where it was broken off."""
 
-    def __init__(self, task: GameTask, seats: tuple[Seat, Seat], notes: _Notes | None, tell: Tell) -> None:
+    def __init__(self, task: GameTask, seats: tuple[Session, Session], notes: _Notes | None, tell: Tell) -> None:
         self.lines: list[str] = []
         self._task = task
         self._seats = seats
@@ -235,7 +237,7 @@ class _Game:
         left = view.clocks[seat].seconds_left
         started = time.monotonic_ns()
         try:
-            return self._seats[seat].ask(view, left)
+            return self._seats[seat].ask(view)
         except Lost as lost:
             if lost.reason is EndReason.TIME_OUT:  # measured by another clock than ours: it was all of it
                 started = min(started, time.monotonic_ns() - nanoseconds(left or 0.0))
@@ -262,7 +264,7 @@ class _Game:
         """Ask for a move that is known, as often as it was asked for then."""
         for _ in range(TRIES):
             try:
-                answer = self._seats[seat].ask(view, None)
+                answer = self._seats[seat].ask(view)
             except Lost as lost:
                 self._report(seat, f"{lost} while it was walked through moves it had made")
                 return
@@ -270,7 +272,7 @@ class _Game:
                 continue
             if not (refusals := self._rules.check(view.to_game(), answer)):
                 break
-            self._tell_refused(seat, Refused(refusals))
+            self._seats[seat].refused(str(Refused(refusals)))
         else:
             return
         if _plain(answer) != _plain(made):
@@ -292,29 +294,18 @@ class _Game:
     def _refused(self, bad: BadAction) -> None:
         if bad.attempt == 1:
             self._report(bad.seat, f"bad answer: {bad.reason}")
-
         if isinstance(bad.reason, Refused):
-            self._tell_refused(bad.seat, bad.reason)
-
-    def _tell_refused(self, seat: int, refused: Refused) -> None:
-        try:
-            self._seats[seat].refused(str(refused))
-        except Exception as error:
-            self._report(seat, f"refused raised {error!r}")
+            self._seats[bad.seat].refused(str(bad.reason))
 
     def _report(self, seat: int, what: str) -> None:
         self._tell(self._task.due.pair.players[seat], f"{self._task.due.id}: {what}"[:LONGEST_REPORT])
 
     def _say_over(self, played: PlayedGame) -> None:
-        """Tell both players, whatever their code makes of it."""
+        """Tell the players who were asked."""
         score = points_of(played.outcome)
         for number, (seat, last) in enumerate(zip(self._seats, self._last, strict=True)):
-            if last is None:
-                continue
-            try:
+            if last is not None:
                 seat.over(over_message(played, number, last, score))
-            except Exception as error:
-                self._report(number, f"game_over raised {error!r}")
 
 
 def _plain(action: Action) -> str:

@@ -6,6 +6,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 
 from client.arena.directory import EventDirectory, EventError, write_whole
 from client.arena.executors import RETRIES, Pool, WorkerLost, result_of
+from client.arena.preflight import require_startable
 from client.arena.tasks import PairDone, PairTask
 from client.arena.terms import Terms
 from tournament import Due, Tournament, TournamentError
@@ -43,12 +44,14 @@ class Runner:
         """Play until nothing is due, or the event is paused with no game under way, or aborted.
 
         Raises:
-            EventError: a pair kills every worker that plays it, or another process runs this event.
-            client.AgentNotFound: an entrant's name leads nowhere.
+            EventError: an entrant cannot be made or started, a pair kills every worker that plays it, or another
+                process runs this event.
         """
         with self._directory.alone():
             self._journal.append("begun")
             self._look()
+            if self._ledger.event.due and not self._ledger.paused:
+                require_startable(self._terms, self._pool, self._directory.logs, self._ledger.event.withdrawn)
             while not self._ledger.over:
                 self._give_out()
                 if not self._running:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from client.arena.hosting import Hosting
 from client.arena.resumable_game import GameTask, play
-from client.arena.seats import Seat, seat_of
+from client.arena.seats import seat_of
+from client.session import Session
 from tournament import GameResult
 
 MOST_REPORTS = 100
@@ -61,7 +62,7 @@ def play_pair(task: PairTask) -> PairDone:
 
 
 @contextlib.contextmanager
-def _seated(task: PairTask, reports: list[tuple[str, str]]) -> Iterator[tuple[tuple[Seat, Seat], Path | None]]:
+def _seated(task: PairTask, reports: list[tuple[str, str]]) -> Iterator[tuple[tuple[Session, Session], Path | None]]:
     """Both seats, and the folder for the records if it is there; the seats are closed afterwards."""
     directory = _reachable(task.directory)
     logs = None if directory is None else directory / "logs"

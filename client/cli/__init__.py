@@ -1,10 +1,12 @@
 """The `pooliad` command, one file a subcommand. Each imports what it needs when it runs: help is quick."""
 
 import sys
+from typing import Annotated
 
 import typer
 
 from client.cli import agent, backup, bench, demo, doctor, keys, replay, serve, simulate, tournament
+from client.cli.doctor import show_version
 from client.cli.output import FAILED
 
 
@@ -12,11 +14,11 @@ def application() -> typer.Typer:
     """The command with all its subcommands."""
     app = typer.Typer(
         name="pooliad",
-        help="Computational pool: simulate, play, serve and replay 8-ball matches between programs.",
         no_args_is_help=True,
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
+    app.callback()(pooliad)
     app.command("demo")(demo.demo)
     app.command("serve")(serve.serve)
     app.command("backup")(backup.backup)
@@ -28,6 +30,14 @@ def application() -> typer.Typer:
     app.add_typer(tournament.commands(), name="tournament")
     app.add_typer(keys.commands(), name="keys")
     return app
+
+
+def pooliad(
+    version: Annotated[
+        bool, typer.Option("--version", is_eager=True, callback=show_version, help="Print the version and leave.")
+    ] = False,
+) -> None:
+    """Computational pool: simulate, play, serve and replay 8-ball matches between programs."""
 
 
 def main() -> None:

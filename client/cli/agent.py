@@ -78,9 +78,12 @@ def _prepare(token: str) -> None:
     import logging
     import sys
 
+    from client.cli.reports import report_if_asked
+
     if not _can_be_sent(token):
         fail("--token holds characters that no token has: letters, digits and signs of ASCII only", USAGE)
     logging.basicConfig(stream=sys.stderr, format="%(asctime)s %(levelname)s %(message)s")
+    report_if_asked()
 
 
 def _position(file: Path | None) -> "Game | None":

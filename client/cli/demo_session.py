@@ -7,10 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from client.adapters.stdio import LOGS
 from client.agents.registry import titles
+from client.arena.journal import Journal
 from client.cli import embedded
 from client.cli.output import fail, say
 from client.cli.processes import Child
+from client.cli.reports import REPORTS
 from client.cli.sentences import sentence_of, summary
 from client.cli.spectator import Ended, Played, follow
 from client.cli.tally import GameTally
@@ -19,6 +22,8 @@ from physics import Shot, Table, min_elevation, rack, simulate, simulate_batch
 from protocol import AgentView, GameSummary, MatchRequest, MatchView, NoiseTerms
 from referee.play import MatchSeed
 
+LONGEST_WORDS = 300
+"""Letters of a bad answer that are shown; its log has all of them."""
 LEAVING_SECONDS = 15.0
 """Seconds the agents get to learn that the match is over: less than two of their polls need."""
 
@@ -39,8 +44,10 @@ class DemoSession:
         self._directory = directory
         self._agents = agents
         self._seed = seed
-        self._say = _silence if quiet else say
+        self._say: Callable[[str], None] = (lambda text: None) if quiet else say
         self._games: list[dict[str, Any]] = []
+        self._reports: dict[str, Journal] = {}
+        self._told: dict[str, str] = {}
 
     def play(self, games: int, noise: float) -> dict[str, Any]:
         """Play the match and return its account, as JSON."""
@@ -64,14 +71,18 @@ class DemoSession:
         """Register an agent and start its process."""
         entry = organiser.register(name)
         command = [sys.executable, "-P", "-m", "client.cli", "agent", "run", program, "--seed", str(self._seed)]
+        reports = self._directory / f"{name}.reports.jsonl"
         environment = {"POOLIAD_URL": url, "POOLIAD_TOKEN": entry.token}
+        environment |= {REPORTS: str(reports), LOGS: str(self._directory)}
         self._children.append(Child(name, command, self._directory / f"{name}.log", environment))
+        self._reports[name] = Journal(reports)
         return entry.agent
 
     def _watch(self, organiser: Pooliad, match: MatchView) -> None:
         """Tell the match stroke by stroke, and keep each game's record."""
         tally = GameTally()
         for happening in follow(organiser, match.id, self._check):
+            self._tell_reports()
             match happening:
                 case Played(stroke=stroke):
                     tally.add(stroke)
@@ -110,8 +121,20 @@ class DemoSession:
             "games": self._games,
         }
 
+    def _tell_reports(self) -> None:
+        """Say what the agents do wrong as it happens; the same again, try after try, is said once."""
+        for name, journal in self._reports.items():
+            for entry in journal.new():
+                words = (
+                    f"{entry.fields['words']}: {error}" if (error := entry.fields["error"]) else entry.fields["words"]
+                )
+                if words != self._told.get(name):
+                    self._told[name] = words
+                    self._say(f"   !  {name}: {shortened(words)}")
+
     def _check(self) -> None:
-        """Leave the command if a child has failed."""
+        """Tell of bad answers, and leave the command if a child has failed."""
+        self._tell_reports()
         for child in self._children:
             if child.exit_code not in (None, 0):
                 fail(f"{child.name} left with exit code {child.exit_code}:\n{child.last_words()}")
@@ -122,8 +145,10 @@ def _score(match: MatchView) -> tuple[str, str]:
     return f"{match.players[0]} {match.score[0]:g},", f"{match.players[1]} {match.score[1]:g}"
 
 
-def _silence(_text: str) -> None:
-    """Say nothing."""
+def shortened(words: str) -> str:
+    """What fits a line."""
+    line = " ".join(words.split())
+    return line if len(line) <= LONGEST_WORDS else f"{line[:LONGEST_WORDS]}..."
 
 
 def _warm_up(tell: Callable[[str], None]) -> None:

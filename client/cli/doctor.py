@@ -46,6 +46,15 @@ def doctor(
         fail("; ".join(faults))
 
 
+def show_version(asked: bool) -> None:
+    """Print this distribution's version and leave, if that was asked for."""
+    from importlib import metadata
+
+    if asked:
+        say(f"pooliad {metadata.version('pooliad')}")
+        raise typer.Exit
+
+
 def _versions() -> dict[str, str | None]:
     """Version of Python, of this distribution and of its libraries; None where one is not installed."""
     import platform

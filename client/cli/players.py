@@ -1,7 +1,5 @@
 """The agents a command is told to play with, by name."""
 
-import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from client.cli.output import USAGE, fail
@@ -16,11 +14,10 @@ def load_player(name: str, seed: int | None = None) -> "AgentFactory":
     Modules in the current directory are found too, but last: none of them may stand in for an installed one.
     """
     from client.agents.registry import load
+    from client.arena.hosted_agents import find_here
     from client.errors import AgentNotFound
 
-    here = str(Path.cwd())
-    if here not in sys.path:
-        sys.path.append(here)
+    find_here()
     try:
         return load(name, seed)
     except AgentNotFound as error:

@@ -150,13 +150,13 @@ def _show_stroke(record: "Record", number: int, as_json: bool) -> None:
 def _tell_stroke(entry: dict[str, Any], players: tuple[str, str]) -> None:
     """One stroke in full, for people."""
     from client import notation
-    from physics import TableState
+    from physics import Event, EventKind, TableState
 
     say(_sentence(entry, players))
     say(f"from   {notation.write(TableState.from_dict(entry['before']))}")
     for title, shot in (("meant", entry["action"]["shot"]), ("played", entry["shot"])):
         say(f"{title:6s} " + "  ".join(f"{name} {value:.6g}" for name, value in shot.items()))
     for event in entry["events"]:
-        partner = f" and {event['other']}" if event["other"] >= 0 else ""
-        say(f"{event['index']:4d}  {event['time']:.6f} s  {event['kind']} of {event['ball']}{partner}")
+        kind = EventKind(event["kind"])
+        say(f"{event['index']:4d}  {Event(event['index'], event['time'], kind, event['ball'], event['other'], ())}")
     say(f"to     {notation.write(TableState.from_dict(entry['final']))}")

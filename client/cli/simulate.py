@@ -28,7 +28,9 @@ def simulate(
 ) -> None:
     """Simulate one shot and print its events."""
     import math
+    import sys
 
+    from client.geometry.aim import looks_like_radians
     from physics import InvalidShot, InvalidState, InvalidTable, Shot, check, min_elevation
     from physics import simulate as run
 
@@ -44,6 +46,10 @@ def simulate(
         fail(str(error), USAGE)
     if unplayable is not None:
         fail(f"this shot cannot be played: {unplayable.reason}", USAGE)
+    if looks_like_radians(phi):
+        print(
+            f"pooliad: note: --phi is in degrees; {phi:g} rad would be --phi {math.degrees(phi):.6g}", file=sys.stderr
+        )
     result = run(cloth, state, shot)
     if as_json:
         emit(_value(shot, result))

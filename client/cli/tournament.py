@@ -62,9 +62,10 @@ def run(
     Interrupted, it goes on with `pooliad tournament resume DIRECTORY`.
     """
     from client.arena.directory import EventDirectory
+    from client.arena.hosted_agents import find_here
     from client.arena.terms import Terms
 
-    _find_here()
+    find_here()
     terms = Terms.read(file)
     if dry_run:
         _estimate(terms, workers, as_json)
@@ -83,9 +84,10 @@ def resume(
     as_json: Json = False,
 ) -> None:
     """Take up an event that was interrupted: finished games stand, unfinished ones go on from their last stroke."""
+    from client.arena.hosted_agents import find_here
     from client.arena.terms import Terms
 
-    _find_here()
+    find_here()
     event = _opened(directory)
     _play(event, Terms.from_dict(event.terms()), _Where(executor, workers, server, token), as_json)
 
@@ -327,9 +329,3 @@ def _duration(seconds: float) -> str:
     minutes, rest = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours} h {minutes} min" if hours else f"{minutes} min {rest} s" if minutes else f"{rest} s"
-
-
-def _find_here() -> None:
-    from client.arena.hosted_agents import find_here
-
-    find_here()

@@ -24,9 +24,9 @@ def read_body(headers: Mapping[str, str], stream: BufferedIOBase) -> bytes:
     if coding is None:
         return _exactly(stream, _number(_DECIMAL, headers.get("content-length", "0"), 10))
     if "content-length" in headers:  # 6.1: perhaps one request smuggled within another; a server refuses it too
-        raise ValueError("two lengths: both Content-Length and Transfer-Encoding; allowed: one of them")
+        raise ValueError("Content-Length and Transfer-Encoding: must be one of them, not both")
     if coding.strip().lower() != "chunked":
-        raise ValueError(f"Transfer-Encoding: {coding!r}; allowed: chunked")
+        raise ValueError(f"Transfer-Encoding = {coding!r}: must be chunked")
     return b"".join(_chunks(stream))
 
 
@@ -39,7 +39,7 @@ def _chunks(stream: BufferedIOBase) -> Iterator[bytes]:
             raise ValueError(f"a body of more than {LARGEST} bytes")
         yield _exactly(stream, size)
         if after := _line(stream):
-            raise ValueError(f"a chunk of {size} bytes is followed by {after[:40]!r}; allowed: an empty line")
+            raise ValueError(f"a chunk of {size} bytes is followed by {after[:40]!r}: must be an empty line")
     while _line(stream):
         pass
 
@@ -54,7 +54,7 @@ def _line(stream: BufferedIOBase) -> str:
 def _number(allowed: re.Pattern[str], text: str, base: int) -> int:
     """A length; `int` alone would take signs and underscores too."""
     if allowed.fullmatch(text.strip()) is None or (number := int(text, base)) > LARGEST:
-        raise ValueError(f"a length of {text[:40]!r} bytes; allowed: 0 to {LARGEST}, in base {base}")
+        raise ValueError(f"length = {text[:40]!r}: must be from 0 to {LARGEST} bytes, in base {base}")
     return number
 
 

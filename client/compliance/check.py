@@ -1,13 +1,15 @@
 """Playing an agent through the situations: a real server, a proxy that watches, an opponent that does nothing."""
 
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from client.adapters.stdio import LOGS
+from client.arena.journal import Journal, JournalEntry
 from client.cli.processes import Child
+from client.cli.reports import REPORTS
 from client.compliance.faults import Finding, FindingName, in_traffic
 from client.compliance.proxy import Exchange, Proxy
 from client.compliance.situations import SITUATIONS, Situation, Twist
@@ -21,6 +23,8 @@ LOOK_EVERY = 0.05
 """Seconds between looks at what has happened."""
 BRIEFLY, AFTERWARDS = 0.5, 3.0
 """Seconds an agent is watched after its action; longer where it is about a lost reply, or the end of the game."""
+IN_VAIN = 3
+"""Exceptions in a situation after which nothing more is expected of the agent."""
 MARGIN = 15.0
 """Seconds beyond the clock within which a game must be over by itself."""
 HURRY = 5.0
@@ -65,20 +69,26 @@ class Checker:
         self._server, self._token = server, organiser
         self._command, self._directory = list(command), directory
         self._child: Child | None = None
+        self._journal = Journal(directory / "reports.jsonl")
+        self._reported: list[JournalEntry] = []
+        self._fresh = False
 
     def run(
         self, situations: Iterable[Situation] = SITUATIONS, on_report: Callable[[Report], Any] = lambda report: None
     ) -> list[Report]:
-        """Every situation, one after the other; what was found in each."""
+        """Every situation, one after the other; what was found in each. An agent that cannot be started ends it."""
         reports = []
         with Proxy(self._server) as proxy, Pooliad(self._server, self._token) as organiser:
             names = (f"opponent {time.time_ns():x}", f"checked {time.time_ns():x}")
             opponent, checked = organiser.register(names[0]), organiser.register(names[1])
             environment = {"POOLIAD_URL": proxy.url, "POOLIAD_TOKEN": checked.token, LOGS: str(self._directory)}
+            environment[REPORTS] = str(self._journal.path)
             try:
                 for situation in situations:
                     reports.append(self._try(situation, organiser, proxy, (opponent, checked), environment))
                     on_report(reports[-1])
+                    if any(fault.name is FindingName.UNSTARTABLE for fault in reports[-1].faults):
+                        break
             finally:
                 if self._child is not None:
                     self._child.stop()
@@ -94,6 +104,9 @@ class Checker:
     ) -> Report:
         """One match in one situation."""
         proxy.begin(situation.twist)
+        self._reported = []
+        self._fresh = False
+        list(self._journal.new())  # what the situation before has left behind
         self._ensure_running(environment)
         started = time.monotonic()
         match = organiser.create_match(_request(situation, players))
@@ -101,9 +114,14 @@ class Checker:
         if accepted is not None:
             self._finish(situation, organiser, match, players[0])
             self._watch(situation, proxy, accepted)
-        faults = [*in_traffic(situation, proxy.seen()), *self._missing(situation, organiser, match, accepted, proxy)]
+        self._reported.extend(self._journal.new())
+        faults = [
+            *in_traffic(situation, proxy.seen()),
+            *_reported(situation, self._reported),
+            *self._missing(situation, organiser, match, accepted, proxy),
+        ]
         _call_off(organiser, match)
-        if any(fault.name in (FindingName.SILENT, FindingName.LATE, FindingName.CRASHES) for fault in faults):
+        if accepted is None or any(fault.name in (FindingName.LATE, FindingName.CRASHES) for fault in faults):
             self._stop()  # whatever it is still thinking about must not spill into the next situation
         return Report(situation, tuple(faults), None if accepted is None else accepted.done - started)
 
@@ -111,6 +129,7 @@ class Checker:
         """An agent that left after its match is started anew."""
         if self._child is None or self._child.exit_code is not None:
             self._child = Child("agent", self._command, self._directory / "agent.log", environment)
+            self._fresh = True
 
     def _stop(self) -> None:
         if self._child is not None:
@@ -125,7 +144,9 @@ class Checker:
         while time.monotonic() < end:
             if (found := _accepted(situation, proxy.seen(), match)) is not None:
                 return found
-            if self._crashed or organiser.match(match.id).status != "running":
+            self._reported.extend(self._journal.new())
+            failing = sum(entry.kind in ("raised", "nonsense") for entry in self._reported) >= IN_VAIN
+            if failing or self._crashed or organiser.match(match.id).status != "running":
                 return _accepted(situation, proxy.seen(), match)
             time.sleep(LOOK_EVERY)
         return None
@@ -161,12 +182,25 @@ class Checker:
         if self._crashed:
             assert self._child is not None
             words = f"it left with exit code {self._child.exit_code}:\n{self._child.last_words()}"
-            return [Finding(FindingName.CRASHES, situation.name, words)]
-        if accepted is not None:
+            unstartable = (self._fresh and not proxy.seen()) or any(
+                entry.kind == "unstartable" for entry in self._reported
+            )
+            return [Finding(FindingName.UNSTARTABLE if unstartable else FindingName.CRASHES, situation.name, words)]
+        if accepted is not None or any(entry.kind in _REPORTED for entry in self._reported):
             return []
         outcome = organiser.match(match.id).played[-1].outcome
         name = FindingName.LATE if outcome is not None and situation.seconds <= HURRY else FindingName.SILENT
         return [Finding(name, situation.name, f"no action was accepted within {situation.seconds:g} s")]
+
+
+_REPORTED = {"raised": FindingName.RAISES, "nonsense": FindingName.MALFORMED}
+
+
+def _reported(situation: Situation, entries: Sequence[JournalEntry]) -> Iterator[Finding]:
+    """The faults that the agent's own process has told of, each name once."""
+    named = {_REPORTED[entry.kind]: entry for entry in reversed(entries) if entry.kind in _REPORTED}
+    for name, entry in named.items():
+        yield Finding(name, situation.name, "\n".join(filter(None, (entry.fields["words"], entry.fields["traceback"]))))
 
 
 def _request(situation: Situation, players: tuple[AgentToken, AgentToken]) -> MatchRequest:

@@ -20,6 +20,8 @@ SHOWN = 300
 class FindingName(StrEnum):
     """Everything that can be wrong."""
 
+    UNSTARTABLE = "unstartable"
+    RAISES = "raises"
     CRASHES = "crashes"
     SILENT = "silent"
     LATE = "late"

@@ -108,7 +108,7 @@ class Proxy:
 
     def refuse(self, method: str, path: str, headers: dict[str, str], reason: str) -> httpx2.Response:
         """What the agent is answered when its request cannot be read."""
-        problem = Problem.of(ProblemCode.BAD_HEADER, 400, reason, instance=path)
+        problem = Problem.of(ProblemCode.BAD_HEADER, reason, instance=path)
         response = _rendered(problem, {})
         self._keep(time.monotonic(), method, path, headers, b"", response, twisted=False)
         return response
@@ -224,12 +224,12 @@ class Proxy:
 
 def _problem(twist: Twist, path: str) -> httpx2.Response:
     """What the proxy says in the server's place."""
-    code, status, words = ProblemCode.DRAINING, 503, "the server is shutting down"
+    code, words = ProblemCode.DRAINING, "the server is shutting down"
     headers = {"Retry-After": str(RETRY_AFTER)}
     if twist is Twist.REFUSED:
-        code, status, words = ProblemCode.REFUSED, 422, "refused to see what happens; try again"
+        code, words = ProblemCode.REFUSED, "refused to see what happens; try again"
         headers = {}
-    return _rendered(Problem.of(code, status, words, instance=path), headers)
+    return _rendered(Problem.of(code, words, instance=path), headers)
 
 
 def _rendered(problem: Problem, headers: dict[str, str]) -> httpx2.Response:

@@ -43,3 +43,8 @@ def cut_angle(cue_ball: Point, ball: Point, target: Point, radius: float) -> flo
         return 0.0
     turn = abs(azimuth(cue_ball, ghost) - azimuth(ball, target))
     return min(turn, 360.0 - turn)
+
+
+def looks_like_radians(phi: float) -> bool:
+    """Whether an azimuth is a full circle at most in radians, and no round number of degrees."""
+    return abs(phi) <= 2.0 * math.pi and phi != round(phi, 1)

@@ -11,6 +11,7 @@ from client.geometry.aim import Point, azimuth, cut_angle, distance, ghost_ball
 from client.geometry.paths import blockers
 from client.geometry.pots import STEEPEST_CUT, mouth, places_of
 from physics import Table, TableState
+from physics.pockets import pocket_number
 
 CUSHIONS = range(4)
 """W, E, S, N, as rail collisions number them."""
@@ -42,12 +43,16 @@ class Bank:
         return not self.blockers and self.cut <= STEEPEST_CUT
 
 
-def bank(table: Table, state: TableState, ball: int, pocket: int, cushion: int) -> Bank | None:
+def bank(table: Table, state: TableState, ball: int, pocket: int | str, cushion: int) -> Bank | None:
     """The bank of `ball` off `cushion` (0 to 3: W E S N) into `pocket`; None when no cushion is there to be hit.
 
-    Raises `ValueError` when the cue ball or the ball is not on the table, or the ball is the cue ball.
+    `pocket` is a number or a name (`"SW"`).
+
+    Raises `ValueError` when the cue ball or the ball is not on the table, the ball is the cue ball, or there is no such
+    pocket.
     """
     cue_ball, place = places_of(state, ball)
+    pocket = pocket_number(pocket)
     target, radius = mouth(table, pocket), table.ball_radius
     bounce = _bounce(table, cushion, place, target)
     if bounce is None:
@@ -61,9 +66,10 @@ def bank(table: Table, state: TableState, ball: int, pocket: int, cushion: int) 
     return Bank(ball, pocket, cushion, False, bounce, ghost, azimuth(cue_ball, ghost), cut, length, in_the_way)
 
 
-def kick(table: Table, state: TableState, ball: int, pocket: int, cushion: int) -> Bank | None:
+def kick(table: Table, state: TableState, ball: int, pocket: int | str, cushion: int) -> Bank | None:
     """The cue ball off `cushion` and then on to `ball`, which goes straight into `pocket`; as `bank` otherwise."""
     cue_ball, place = places_of(state, ball)
+    pocket = pocket_number(pocket)
     target, radius = mouth(table, pocket), table.ball_radius
     ghost = ghost_ball(place, target, radius)
     bounce = _bounce(table, cushion, cue_ball, ghost)
@@ -75,9 +81,9 @@ def kick(table: Table, state: TableState, ball: int, pocket: int, cushion: int) 
     return Bank(ball, pocket, cushion, True, bounce, ghost, azimuth(cue_ball, bounce), cut, length, in_the_way)
 
 
-def banks(table: Table, state: TableState, balls: Iterable[int], pockets: Iterable[int] = range(6)) -> list[Bank]:
+def banks(table: Table, state: TableState, balls: Iterable[int], pockets: Iterable[int | str] = range(6)) -> list[Bank]:
     """The open banks and kicks of `balls` into `pockets` over one cushion, the shortest first."""
-    into = tuple(pockets)
+    into = tuple(map(pocket_number, pockets))
     found = [
         made(table, state, ball, pocket, cushion)
         for ball in balls

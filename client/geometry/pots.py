@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from client.geometry.aim import Point, azimuth, cut_angle, distance, ghost_ball
 from client.geometry.paths import blockers
 from physics import Table, TableState
+from physics.pockets import pocket_number
 
 STEEPEST_CUT = 85.0
 """Degrees. Beyond this cut a contact hardly moves the object ball, and a tenth of a degree misses it."""
@@ -44,14 +45,16 @@ class Pot:
         return not self.blockers and self.cut <= STEEPEST_CUT and self.tolerance > 0.0
 
 
-def pot(table: Table, state: TableState, ball: int, pocket: int) -> Pot:
+def pot(table: Table, state: TableState, ball: int, pocket: int | str) -> Pot:
     """The straight pot of `ball` into `pocket` from where the cue ball lies, playable or not.
 
-    Raises `ValueError` when the cue ball or the ball is not on the table, or the ball is the cue ball.
+    `pocket` is a number or a name (`"SW"`).
+
+    Raises `ValueError` when the cue ball or the ball is not on the table, the ball is the cue ball, or there is no such
+    pocket.
     """
     cue_ball, place = places_of(state, ball)
-    if not 0 <= pocket <= 5:
-        raise ValueError(f"pocket is {pocket}; pockets are 0 (SW) to 5 (SE)")
+    pocket = pocket_number(pocket)
     target = mouth(table, pocket)
     ghost = ghost_ball(place, target, table.ball_radius)
     cut = cut_angle(cue_ball, place, target, table.ball_radius)
@@ -65,9 +68,9 @@ def pot(table: Table, state: TableState, ball: int, pocket: int) -> Pot:
     return Pot(ball, pocket, ghost, phi, cut, reach, run, in_the_way, tolerance)
 
 
-def pots(table: Table, state: TableState, balls: Iterable[int], pockets: Iterable[int] = range(6)) -> list[Pot]:
+def pots(table: Table, state: TableState, balls: Iterable[int], pockets: Iterable[int | str] = range(6)) -> list[Pot]:
     """The open straight pots of `balls` into `pockets`, the most forgiving first."""
-    into = tuple(pockets)
+    into = tuple(map(pocket_number, pockets))
     thin_enough = [(ball, pocket) for ball in balls for pocket in into if _can_be_cut(table, state, ball, pocket)]
     found = [pot(table, state, ball, pocket) for ball, pocket in thin_enough]
     return sorted((each for each in found if each.is_open), key=lambda each: -each.tolerance)
@@ -90,9 +93,9 @@ def places_of(state: TableState, ball: int) -> tuple[Point, Point]:
     return cue_ball, place
 
 
-def mouth(table: Table, pocket: int) -> Point:
+def mouth(table: Table, pocket: int | str) -> Point:
     """Middle of a pocket's mouth line for ball centres."""
-    x, y = table.mouths[pocket]
+    x, y = table.mouths[pocket_number(pocket)]
     return float(x), float(y)
 
 

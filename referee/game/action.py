@@ -6,6 +6,7 @@ from enum import StrEnum
 from operator import index
 from typing import Any, Final, Literal
 
+from physics.pockets import POCKET_NUMBERS, POCKETS_ALLOWED
 from physics.shot import Shot
 from referee.errors import InvalidAction
 
@@ -30,16 +31,25 @@ class Decision(StrEnum):
     """Give the game up."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, init=False)
 class Call:
-    """The announced ball and pocket (0..5, SW W NW NE E SE); whether it may be called, ``check`` says."""
+    """The announced ball and pocket (0..5, SW W NW NE E SE); whether it may be called, ``check`` says.
+
+    Args:
+        ball: its number.
+        pocket: its number or its name; ``Call(3, "SW")`` is ``Call(3, 0)``.
+
+    Raises:
+        InvalidAction: a number that is no integer, or a name that no pocket has.
+    """
 
     ball: int
     pocket: int
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "ball", _integer("call.ball", self.ball, "a ball number"))
-        object.__setattr__(self, "pocket", _integer("call.pocket", self.pocket, "a pocket number 0..5"))
+    def __init__(self, ball: int, pocket: int | str) -> None:
+        number = POCKET_NUMBERS.get(pocket, pocket) if isinstance(pocket, str) else pocket
+        object.__setattr__(self, "ball", _integer("call.ball", ball, "must be the number of a ball, an integer"))
+        object.__setattr__(self, "pocket", _integer("call.pocket", number, f"must be {POCKETS_ALLOWED}"))
 
     def to_dict(self) -> dict[str, int]:
         """``{"ball": 3, "pocket": 5}``."""
@@ -52,7 +62,7 @@ class Action:
 
     Args:
         shot: the intended stroke.
-        call: ``Call`` (or ``{"ball": 3, "pocket": 5}``), ``"safety"``, or None on the break.
+        call: ``Call`` (or ``{"ball": 3, "pocket": 5}``, or ``(3, "SE")``), ``"safety"``, or None on the break.
         cue_ball: where to put the cue ball, metres, when it is in hand; None leaves it where it lies.
         decision: a ``Decision`` or its string value.
 
@@ -114,7 +124,7 @@ def _integer(field: str, value: Any, allowed: str) -> int:
             raise TypeError
         return index(value)
     except TypeError:
-        raise InvalidAction(field, value, f"{allowed} (an integer)") from None
+        raise InvalidAction(field, value, allowed) from None
 
 
 def _call(value: Any) -> Call | Literal["safety"] | None:
@@ -124,7 +134,9 @@ def _call(value: Any) -> Call | Literal["safety"] | None:
         return SAFETY
     if isinstance(value, Mapping) and set(value) == {"ball", "pocket"}:
         return Call(value["ball"], value["pocket"])
-    raise InvalidAction("call", value, 'a Call, {"ball": , "pocket": }, "safety" or None')
+    if isinstance(value, tuple | list) and len(value) == 2:
+        return Call(*value)
+    raise InvalidAction("call", value, 'must be a Call, (ball, pocket), {"ball": , "pocket": }, "safety" or None')
 
 
 def _point(value: Any) -> tuple[float, float] | None:

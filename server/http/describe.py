@@ -115,7 +115,7 @@ def _success(answer: Any) -> dict[str, Any]:
 def _problems(*errors: type[ServerError]) -> dict[int | str, dict[str, Any]]:
     codes: dict[int, list[str]] = {}
     for error in errors:
-        known = codes.setdefault(error.status, [])
+        known = codes.setdefault(error.code.status, [])
         known += [error.code] if error.code not in known else []
     content = {PROBLEM_JSON: {"schema": {"$ref": "#/components/schemas/Problem"}}}
     return {

@@ -80,7 +80,7 @@ class Caller:
 def identify(connection: Connection, token: str | None, organiser_digest: str | None, now: int) -> Caller:
     """The caller with this token; raises `Unauthorized` for none and for one that is unknown, revoked or expired."""
     if token is None:
-        raise Unauthorized("no token; allowed: the header Authorization: Bearer TOKEN")
+        raise Unauthorized("there is no token: must be sent in the header Authorization: Bearer TOKEN")
     if organiser_digest is not None and hmac.compare_digest(digest(token), organiser_digest):
         return Caller.organiser(token)
     row = connection.execute(_BY_DIGEST, {"digest": digest(token)}).one_or_none()

@@ -55,8 +55,8 @@ class AloneMembership:
         self._file = files.lock(self._path)
         if self._file is None:
             raise SettingsError(
-                f"the database {self._path} is served by another process ({files.holder(self._path)}); "
-                "allowed: one server process an SQLite file, several a postgresql:// database"
+                f"the database {self._path} is served by another process ({files.holder(self._path)}): "
+                "must be one server process per SQLite file; several need a postgresql:// database"
             )
 
     def settle(self) -> None:

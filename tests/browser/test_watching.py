@@ -158,7 +158,7 @@ def test_a_refused_stream_says_why_and_is_tried_again(new_page, own_server_for_o
         page.goto(f"{own_server_for_one.url}/#/games/{match.game}")
         if page is first:
             page.get_by_role("heading", level=1).filter(has_text="–").wait_for()
-    second.locator(".connection", has_text="1 streams open; allowed: at most 1").wait_for()
+    second.locator(".connection", has_text="1 streams open: must be at most 1").wait_for()
     first.goto(f"{own_server_for_one.url}/#/lab")
     second.get_by_role("heading", level=1).filter(has_text="–").wait_for()
     second.wait_for_function("() => document.querySelector('.connection').textContent === ''")

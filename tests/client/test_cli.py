@@ -4,14 +4,17 @@ is quick.
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import urllib.request
+from importlib import metadata
 
 import pytest
 from typer.testing import CliRunner
 
+import client
 import physics
 from client import notation
 from client.cli import application, serve
@@ -43,6 +46,22 @@ def test_every_command_has_help(name):
     done = run(name, "--help")
     assert done.exit_code == 0
     assert name in run("--help").output
+
+
+def test_the_version_is_that_of_the_distribution():
+    done = run("--version")
+    assert (done.exit_code, done.stdout) == (0, f"pooliad {metadata.version('pooliad')}\n")
+
+
+def test_a_stroke_in_full_names_cushions_as_cushions(tmp_path):
+    """Seen: `rail_collision of 3 and 1`, as if ball 3 had met ball 1."""
+    file = tmp_path / "game.jsonl"
+    file.write_text("".join(f"{line}\n" for line in client.play("random", "random", seed=5).games[0].record()))
+    told = run("replay", "show", file, "--shot", "1").stdout
+    assert re.search(r"^ +\d+ +\d\.\d{6} s  ball \d+  rail collision at the [WESN] cushion$", told, re.MULTILINE)
+    events = [line for line in told.splitlines() if re.match(r" +\d+  \d+\.\d{6} s  ", line)]
+    assert len(events) > 1
+    assert [line for line in events if " and " in line] == []
 
 
 def test_simulate_prints_what_the_library_computes():
@@ -97,6 +116,15 @@ def test_simulate_names_what_is_wrong(arguments, named):
     done = run("simulate", *arguments)
     assert done.exit_code == 2
     assert named in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("phi", "note"), [("1.5708", "--phi 90.0002"), ("-3.14", "--phi -179.909"), ("2", ""), ("260", "")]
+)
+def test_simulate_doubts_an_azimuth_that_looks_like_radians(phi, note):
+    done = run("simulate", "--v", "2", "--phi", phi, "--theta", "45", "--balls", POSITION)
+    assert done.exit_code == 0
+    assert (note in done.stderr) if note else not done.stderr
 
 
 def test_doctor_reports_and_agrees_with_itself():

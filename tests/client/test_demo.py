@@ -164,6 +164,38 @@ def test_an_agent_that_breaks_down_ends_the_demo_with_its_words(tmp_path):
     assert "my last words" in done.stderr
 
 
+CLUMSY = """
+import json, sys
+from pathlib import Path
+
+print("I am on standard error", file=sys.stderr)
+turns = Path(sys.argv[1])
+for line in sys.stdin:
+    if json.loads(line)["type"] == "turn":
+        before = len(turns.read_text()) if turns.exists() else 0
+        turns.write_text("x" * (before + 1))
+        print(("nonsense", '{"decision": "spot_eight"}', '{"decision": "concede"}')[min(before, 2)], flush=True)
+"""
+"""Answers nonsense, then what is refused, then gives up; it keeps count in a file, since nonsense ends it."""
+
+
+def test_a_bad_answer_is_shown_as_it_happens_and_a_commands_standard_error_is_kept_with_the_rest(tmp_path):
+    """Seen: only the agent's log had it, and the command's words were in a directory that nothing named."""
+    (tmp_path / "clumsy.py").write_text(CLUMSY)
+    out = tmp_path / "out"
+    agent = f"stdio:{sys.executable} {tmp_path / 'clumsy.py'} {tmp_path / 'turns'}"
+    done = run("demo", "--agents", agent, agent, "--seed", 1, "--out", out)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    nonsense = next(n for n, line in enumerate(lines) if "nonsense" in line)
+    refused = next(n for n, line in enumerate(lines) if "refused: " in line and "R" in line)
+    end = next(n for n, line in enumerate(lines) if "concede" in line and "!" not in line)
+    assert nonsense < refused < end
+    assert re.match(r"   !  turns-[12]: game \S+, stroke 0: choose raised: NonsenseAnswer: ", lines[nonsense])
+    assert f"logs and records in {out}" in lines[-1]
+    assert next(path.read_text() for path in out.glob("*.stderr")).startswith("I am on standard error\n")
+
+
 @pytest.mark.parametrize(
     ("arguments", "named"),
     [(["--agents", "nobody", "random"], "nobody"), (["--noise", "7"], "noise"), (["--games", "0"], "games")],

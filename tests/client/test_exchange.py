@@ -14,7 +14,7 @@ AGENTS = {"agents": [], "next_cursor": None}
 
 
 def problem(status: int, code: ProblemCode, **headers: str) -> httpx2.Response:
-    body = Problem.of(code, status, "because").model_dump_json().encode()
+    body = Problem.of(code, "because").model_dump_json().encode()
     return httpx2.Response(status, content=body, headers={"Retry-After": "0"} | headers)
 
 
@@ -134,7 +134,7 @@ def test_a_demand_beyond_patience_is_raised(make, script, pauses):
 def test_every_problem_code_has_a_class_of_its_own(code):
     """A code without a class would reach the caller as a bare ApiError."""
     request = httpx2.Request("GET", "http://server/v1/x")
-    body = Problem.of(code, 418, "because").model_dump_json()
+    body = Problem.of(code, "because").model_dump_json()
     error = errors.error_of(httpx2.Response(418, content=body, request=request))
     assert type(error).code is code
     assert error.request is request

@@ -108,11 +108,21 @@ def test_further_away_is_harder():
     assert geometry.pot(TABLE, near, 3, 0).tolerance > geometry.pot(TABLE, far, 3, 0).tolerance
 
 
+def test_a_pocket_may_be_named():
+    state = physics.TableState.from_positions({0: (0.5, 0.7), 3: (0.3, 0.4)})
+    assert geometry.pot(TABLE, state, 3, "SW") == geometry.pot(TABLE, state, 3, 0)
+    assert geometry.pots(TABLE, state, [3], ["SW", "W"]) == geometry.pots(TABLE, state, [3], [0, 1]) != []
+    assert geometry.bank(TABLE, state, 3, "NW", 3) == geometry.bank(TABLE, state, 3, 2, 3)
+    assert geometry.kick(TABLE, state, 3, "SW", 1) == geometry.kick(TABLE, state, 3, 0, 1)
+    with pytest.raises(ValueError, match="pocket = 'south': must be 0 to 5, or SW"):
+        geometry.bank(TABLE, state, 3, "south", 3)
+
+
 def test_bad_input_is_named():
     state = physics.TableState.from_positions({0: (0.5, 0.7), 3: (0.3, 0.4)})
     with pytest.raises(ValueError, match="ball 7 is not on the table"):
         geometry.pot(TABLE, state, 7, 0)
-    with pytest.raises(ValueError, match="pocket is 6"):
+    with pytest.raises(ValueError, match="pocket = 6: must be 0 to 5, or SW, W, NW, NE, E, SE"):
         geometry.pot(TABLE, state, 3, 6)
     with pytest.raises(ValueError, match="cue ball"):
         geometry.pot(TABLE, state, 0, 1)

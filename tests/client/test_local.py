@@ -1,13 +1,16 @@
 """`client.play`: whole matches without a server."""
 
 import logging
+import traceback
 
 import pytest
 
 import client
 import physics
+from client.errors import AgentFailed, AgentUnstartable
 from client.local import over_message
 from client.local_game import play_game
+from client.session import AgentSession
 from referee import EightBall, MatchSeed, NoiseModel
 from referee.record import verify_record
 
@@ -46,11 +49,102 @@ def test_the_break_alternates_and_points_add_up():
 
 def test_an_agent_that_never_acts_forfeits_with_its_reasons_logged(caplog):
     with caplog.at_level(logging.ERROR, "pooliad.agent"):
-        match = client.play(Hopeless, "random", seed=2)
+        match = client.play(Hopeless, "random", seed=2, strict=False)
     assert match.games[0].outcome.reason == "forfeit"
     assert match.winner == "random"
     assert len(caplog.records) == 20
     assert "no idea" in caplog.records[0].exc_text
+
+
+def test_the_same_exception_three_times_ends_the_match_with_the_agents_traceback():
+    """Seen: an agent with a slip in it forfeited after twenty tracebacks, and `play` returned as if it had played."""
+    asked = []
+
+    class Slips(Hopeless):
+        def choose(self, view):
+            asked.append(view)
+            return super().choose(view)
+
+    with pytest.raises(
+        AgentFailed, match=r"Slips \(seat 0\) raised the same exception 3 times.*no idea.*strict=False"
+    ) as e:
+        client.play(Slips, "random", seed=2)
+    assert len(asked) == 3
+    assert isinstance(e.value.__cause__, LookupError)
+    shown = "".join(traceback.format_exception(e.value))
+    assert 'raise LookupError("no idea")' in shown
+
+
+def test_exceptions_of_other_lines_are_others_and_an_answer_between_them_does_not_matter():
+    """The count is of the match: an agent that fails in every game fails a third time in the third."""
+
+    class FailsOnceAGame(Conceding):
+        def choose(self, view):
+            if not hasattr(self, "failed"):
+                self.failed = True
+                if view.number % 2:
+                    raise LookupError("in odd games")
+                raise LookupError("in even games")
+            return CONCEDE
+
+    both = client.play(FailsOnceAGame, FailsOnceAGame, games=4, seed=1)
+    assert len(both.games) == 4
+    with pytest.raises(AgentFailed, match="in even games"):
+        client.play(FailsOnceAGame, FailsOnceAGame, games=12, seed=1)
+
+
+@pytest.mark.parametrize("strict", [True, False])
+def test_an_agent_that_cannot_be_made_ends_the_match_before_it_begins(strict):
+    class NoModel(Conceding):
+        def __init__(self):
+            raise FileNotFoundError("model.bin")
+
+    strokes = []
+    for pair in ((NoModel, "random"), ("random", NoModel)):
+        with pytest.raises(AgentUnstartable, match=r"cannot be made: FileNotFoundError: model.bin") as caught:
+            client.play(*pair, seed=2, strict=strict, on_stroke=strokes.append)
+        assert isinstance(caught.value.__cause__, FileNotFoundError)
+    assert strokes == []
+
+
+@pytest.fixture(scope="module")
+def opening():
+    """The view of a break."""
+    seen = []
+
+    class Looks(Conceding):
+        def choose(self, view):
+            seen.append(view)
+            return CONCEDE
+
+    client.play(Looks, Looks, seed=1)
+    return seen[0]
+
+
+@pytest.mark.parametrize(
+    ("azimuths", "doubts"),
+    [
+        ((4.712, 1.571, 0.785, 3.99, 2.222, 0.123), 1),
+        ((4.712, 1.571, 0.785, 96.2), 0),
+        ((1.5, 2.0, 3.0, 0.1), 0),
+        ((4.712, 4.712, 4.712, 4.712), 0),
+    ],
+)
+def test_azimuths_that_look_like_radians_are_doubted_once_a_game(opening, caplog, azimuths, doubts):
+    """Four directions within 2 pi, none of them round, are no directions in degrees: one in 600,000 is by chance."""
+
+    class Aims(client.Agent):
+        left = iter(azimuths)
+
+        def choose(self, view):
+            return client.Action(shot=physics.Shot(1.0, next(self.left)))
+
+    session = AgentSession(Aims)
+    for _ in azimuths:
+        session.ask(opening)
+    found = [record.getMessage() for record in caplog.records if getattr(record, "kind", "") == "radians"]
+    assert len(found) == doubts
+    assert all("4.71, 1.57, 0.785, 3.99: must be in degrees" in words for words in found)
 
 
 def test_hooks_and_one_instance_a_game():

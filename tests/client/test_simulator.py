@@ -1,9 +1,12 @@
 """`Agent.simulator`: the physics counted against the game's budget (docs/agents.md)."""
 
+import inspect
+
 import pytest
 
 import client
 import physics
+from referee import SimulationBudget
 
 TABLE = physics.Table.olympiad()
 STATE = physics.TableState.from_positions({0: (0.5, 1.7), 3: (0.4, 0.6)})
@@ -43,7 +46,7 @@ def test_a_local_game_counts_and_tells():
 
 def test_beyond_the_budget_nothing_is_simulated_and_the_game_goes_on_as_after_any_fault(caplog):
     """The twentieth fault in a row forfeits a local game; the budget stays as it was."""
-    match = client.play(agent_that(simulates=11, seen=[]), "random", seed=2, simulations=10)
+    match = client.play(agent_that(simulates=11, seen=[]), "random", seed=2, simulations=10, strict=False)
     (game,) = match.games
     assert (game.outcome.reason, game.outcome.winner) == ("forfeit", 1)
     assert game.simulated == (0, 0)
@@ -83,3 +86,28 @@ def test_greedy_plays_by_the_rules_within_any_budget_and_repeats_itself(simulati
 def test_a_negative_budget_is_refused():
     with pytest.raises(ValueError, match="allowed = -1"):
         client.play("random", "random", simulations=-1)
+
+
+def test_its_defaults_are_those_of_the_physics():
+    """Seen: an agent asked `simulate(...).events` and there was no trace, although `physics.simulate` keeps one."""
+    for name in ("simulate", "simulate_batch"):
+        ours = inspect.signature(getattr(client.Simulator, name)).parameters
+        theirs = inspect.signature(getattr(physics, name)).parameters
+        shared = ours.keys() & theirs.keys()
+        assert {"table", "threads" if name == "simulate_batch" else "trace"} <= shared
+        assert {key: ours[key].default for key in shared} == {key: theirs[key].default for key in shared}
+    assert client.Simulator().simulate(TABLE, STATE, SHOT).events[0].kind == "cue_strike"
+
+
+def test_a_batch_of_shots_is_counted_as_its_rows():
+    simulator = client.Simulator(SimulationBudget(2))
+    assert simulator.simulate_batch(TABLE, STATE, [SHOT, SHOT]).state(1) == physics.simulate(TABLE, STATE, SHOT).final
+    assert simulator.remaining == 0
+
+
+@pytest.mark.parametrize("shots", [[[2.0, 260.0]], SHOT, [[float("nan")] * 5]])
+def test_shots_that_cannot_be_are_not_counted(shots):
+    simulator = client.Simulator()
+    with pytest.raises(physics.InvalidShot):
+        simulator.simulate_batch(TABLE, STATE, shots)
+    assert simulator.budget.used == 0

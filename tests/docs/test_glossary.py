@@ -1,4 +1,4 @@
-"""docs/glossary.md: one word, one meaning. A public class name stands in one place, unless the glossary says where else."""
+"""docs/glossary.md: one word, one meaning. A public class name stands in one place, or in those the glossary names."""
 
 import ast
 import re
@@ -9,7 +9,7 @@ from support.require import ROOT
 
 PACKAGES = ("physics", "referee", "tournament", "protocol", "server", "client")
 MIRRORED = re.compile(r"^(client|server)/errors")
-"""Each problem code has a class in the server, which answers with it, and one in the client, which raises it: same name."""
+"""A problem code has two classes of one name: the server answers with the one, the client raises the other."""
 
 
 def class_homes():

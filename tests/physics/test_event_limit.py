@@ -16,6 +16,7 @@ from support.bits import plays
 
 import physics
 from physics.constants import EVENT_LIMIT
+from physics.kernels import layout as at
 from physics.parameters import parameters
 
 PLAYS = {name: (table, state, shot) for name, table, state, shot in plays()}
@@ -111,7 +112,7 @@ def test_without_a_limit_it_is_the_physics_own():
     """CONTRACT: `EVENT_LIMIT` (10^6 events)."""
     assert EVENT_LIMIT == 10**6
     table, state, shot = BREAK
-    assert parameters(table)[0, -1] == EVENT_LIMIT
+    assert parameters(table)[0, at.P_EVENT_LIMIT] == EVENT_LIMIT
     assert physics.simulate(table, state, shot).status is physics.Status.AT_REST
 
 

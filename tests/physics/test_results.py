@@ -9,10 +9,15 @@ from support.moving import after
 from support.play import OPEN
 
 import physics
+from physics import simulation
+from physics.kernels import layout
 
 TABLE = physics.Table.olympiad()
 R, W, L = 0.028575, 1.116, 2.236
 BREAK = physics.Shot(9.0, 270.0, 12.0)
+POISON = -77
+"""What the memory of a fresh array holds in a test; no column of a trace can."""
+LAID = physics.TableState.from_positions({0: (0.5, 1.7), 3: (0.4, 0.6)})
 
 
 def shoot(positions, shot, table=OPEN):
@@ -50,6 +55,21 @@ def test_events_name_what_is_involved(broken):
 
 def events_of(result, kind):
     return [event for event in result.events if event.kind.value == kind]
+
+
+@pytest.mark.parametrize("shot", [BREAK, physics.Shot(1.0, 90.0)], ids=["grown trace", "first trace"])
+def test_a_result_holds_no_memory_that_was_never_written(monkeypatch, shot):
+    """The second ball's columns of an event with one ball read 0; the room a short shot did not need is given back."""
+    monkeypatch.setattr(simulation, "TRACE_ROWS", 40)
+    monkeypatch.setattr(np, "empty", lambda shape, dtype=float: np.full(shape, POISON, dtype))
+    result = physics.simulate(OPEN, physics.rack(OPEN, "eight_ball", seed=7), shot)
+    monkeypatch.undo()
+    assert (result.n_events > 40) == (shot is BREAK)
+    rows = result._trace
+    assert not np.any(rows == POISON)
+    assert rows.base is None
+    alone = rows[rows[:, layout.T_KIND] != layout.BALL_COLLISION]
+    assert not np.any(alone[:, layout.T_SECOND :])
 
 
 def test_without_trace_there_are_no_events():
@@ -273,3 +293,35 @@ def test_chained_shots_always_start_legally():
         assert state == result.final
         if 0 not in state.balls or len(state.balls) < 4:
             state = physics.rack(OPEN, "eight_ball", seed=int(rng.integers(1000)))
+
+
+def test_a_batch_takes_shot_objects():
+    """Seen: `simulate_batch(table, state, [Shot(...)])` answered that "object" must be float64."""
+    shots = [physics.Shot(2.0, 100.0 + k, 8.0, 1.0, -2.0) for k in range(3)]
+    rows = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b] for shot in shots])
+    batch, same = (physics.simulate_batch(TABLE, LAID, given) for given in (shots, rows))
+    assert batch.positions.tobytes() == same.positions.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("shots", "words"),
+    [
+        (physics.Shot(1.0, 2.0), r"shots = Shot\(.*write \[shot\]"),
+        ([physics.Shot(1.0, 2.0), [1.0] * 5], r"shots\[1\] = .*must be a physics.Shot"),
+    ],
+)
+def test_shots_that_are_no_batch_are_explained(shots, words):
+    with pytest.raises(physics.InvalidShot, match=words):
+        physics.simulate_batch(TABLE, LAID, shots)
+
+
+def test_events_of_a_kind(broken):
+    for kind in physics.EventKind:
+        assert broken.events.of(kind) == broken.events.of(kind.value) == [e for e in broken.events if e.kind is kind]
+    assert broken.events.of("rail_collision")
+
+
+def test_a_wrong_event_kind_is_answered_with_those_there_are(broken):
+    for ask in (physics.EventKind, broken.events.of):
+        with pytest.raises(ValueError, match=r"kind = 'cushion': must be one of cue_strike, .*rail_collision"):
+            ask("cushion")

@@ -16,7 +16,7 @@ anything = st.recursive(
 
 
 def test_a_problem_has_the_members_of_rfc_9457():
-    problem = Problem.of(ProblemCode.STALE_VERSION, 412, "version 3 is not the current 4", field="If-Match")
+    problem = Problem.of(ProblemCode.STALE_VERSION, "version 3 is not the current 4", field="If-Match")
     assert problem.model_dump(mode="json", exclude_defaults=True) == {
         "type": "urn:pooliad:problem:stale_version",
         "title": "Stale version",

@@ -185,3 +185,12 @@ def test_terms_of_a_match_outside_their_range_are_refused(terms):
 def test_names_are_plain(name):
     with pytest.raises(ValidationError):
         wire.AgentRequest(name=name)
+
+
+def test_a_request_may_name_the_pocket_and_answers_have_its_number():
+    request = wire.ShotRequest.model_validate(STROKE | {"call": {"ball": 3, "pocket": "NE"}})
+    assert request.to_action().call == Call(3, 3)
+    assert request.model_dump(mode="json")["call"] == {"ball": 3, "pocket": 3}
+    assert faults(wire.ShotRequest, STROKE | {"call": {"ball": 3, "pocket": "north"}}) == {
+        ("int_type", ("call", "pocket"))
+    }

@@ -63,7 +63,7 @@ def test_a_copy_made_under_load_is_restored_and_goes_on(own_server, table_at, tm
     ("url", "target", "words"),
     [
         ("sqlite:///{folder}/none.db", "copy.db", "there is no database"),
-        ("sqlite:///{folder}/there.db", "there.db", "is there already"),
+        ("sqlite:///{folder}/there.db", "there.db", "this one exists"),
         ("postgresql://user:secret@host/pool", "copy.db", "pg_dump"),
         ("mysql://x", "copy.db", "allowed: sqlite:///path"),
         ("sqlite:///{folder}/text.db", "copy.db", "file is not a database"),

@@ -45,7 +45,7 @@ def require_few(writing: Writing, request: MatchRequest, challenger: str | None)
     waiting = writing.connection.scalar(select(func.count()).select_from(matches).where(ours, _plays(challenged)))
     if waiting is not None and waiting >= MOST_WAITING:
         raise WrongStatus(
-            f"{waiting} of your challenges to {challenged} wait to be accepted; allowed: {MOST_WAITING}, or abort one"
+            f"{waiting} of your challenges to {challenged} wait: must be at most {MOST_WAITING}; abort one"
         )
 
 

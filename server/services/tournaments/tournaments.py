@@ -188,7 +188,7 @@ def _act(
 ) -> Answer:
     """Note the decision, if the event as it stands allows it, and give out what follows."""
     if row.status not in allowed:
-        raise WrongStatus(f"the tournament is {row.status}; allowed: {', '.join(allowed)}")
+        raise WrongStatus(f"status = {row.status}: must be {' or '.join(allowed)}")
     refused = progress.course_here(writing, row).ledger.after([Act(kind, fields)]).refused
     if refused:
         raise invalid_field(next(iter(fields)), fields[next(iter(fields))], refused[-1])

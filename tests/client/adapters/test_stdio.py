@@ -291,11 +291,22 @@ def test_a_name_without_a_command_leads_nowhere(name):
         client.load(name)
 
 
-def test_a_command_that_is_not_there_is_named(tmp_path, caplog):
-    agent = lambda: StdioAgent(["/no/such/program"], logs=tmp_path)  # noqa: E731
-    (game,) = client.play(agent, "random", seed=1).games
-    assert "/no/such/program" in caplog.text
-    assert game.outcome.reason == "forfeit" or game.outcome.winner == 1
+def test_a_command_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(errors.AgentNotFound, match="'/no/such/program' is no program that can be run here"):
+        client.play("stdio:/no/such/program", "random", seed=1)
+    with pytest.raises(errors.AgentUnstartable, match="/no/such/program"):
+        client.play(lambda: StdioAgent(["/no/such/program"], logs=tmp_path), "random", seed=1, strict=False)
+
+
+def test_a_command_that_leaves_before_it_reads_cannot_be_started(tmp_path):
+    """Seen: a script with a wrong name lost its games by twenty bad answers each. Its standard error is kept."""
+    agent = lambda: StdioAgent([sys.executable, str(tmp_path / "missing.py")], logs=tmp_path)  # noqa: E731
+    with pytest.raises(
+        errors.AgentUnstartable, match=r"left with exit code 2.*missing\.py.*had not read a line"
+    ) as caught:
+        client.play(agent, agent, seed=1, strict=False)
+    where = re.search(r"standard error is in (\S+) and ends", str(caught.value))[1]
+    assert "missing.py" in Path(where).read_text()
 
 
 def test_commands_have_names_that_a_server_takes():

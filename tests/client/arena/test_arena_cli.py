@@ -1,10 +1,13 @@
 """`pooliad tournament`: docs/running-tournaments.md."""
 
 import json
+import re
+import sys
 
 import pytest
 from typer.testing import CliRunner
 
+from client.arena.directory import EventError
 from client.arena.estimate import estimate
 from client.arena.terms import Terms
 from client.cli import application
@@ -77,3 +80,66 @@ def test_decisions_are_noted_with_who_and_why(cli, tmp_path):
 def test_an_event_at_a_server_takes_a_token(cli, monkeypatch):
     monkeypatch.delenv("POOLIAD_ORGANISER_TOKEN", raising=False)
     assert "token" in cli("run", "cup.toml", "--server", "http://127.0.0.1:9", code=2).stderr
+
+
+UNSTARTABLE = """
+import client
+
+
+class Fine(client.Agent):
+    def choose(self, view):
+        return client.Action(decision="concede")
+
+
+class NoModel(Fine):
+    def __init__(self):
+        raise FileNotFoundError("model.bin")
+
+
+class NoStart(Fine):
+    def game_started(self, view):
+        raise LookupError("no table for this game")
+"""
+
+
+BAD = {
+    "bots:Nobody": "has no attribute 'Nobody'",
+    "nowhere:Agent": "No module named 'nowhere'",
+    "bots:NoModel": "FileNotFoundError: model.bin",
+    "bots:NoStart": "LookupError: no table for this game",
+    "stdio:./no-such-program": "'./no-such-program' is no program that can be run here",
+    f"stdio:{sys.executable} missing.py": "missing.py",
+    "search:seconds=none": "seconds",
+}
+"""Entrants that cannot be imported, made or started, and why."""
+
+
+@pytest.mark.parametrize("dry", [True, False], ids=["dry run", "run"])
+def test_entrants_that_cannot_be_started_are_named_before_the_first_game(cli, tmp_path, monkeypatch, dry):
+    """Seen: the dry run said how long it would take, and the event went on to its end with every game of them lost."""
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    (tmp_path / "bots.py").write_text(UNSTARTABLE)
+    entrants = [f'{{name = "bad{n}", agent = "{agent}"}}' for n, agent in enumerate(BAD)]
+    entrants.append('{name = "good", agent = "bots:Fine"}')
+    (tmp_path / "cup.toml").write_text(CUP.replace('"random", {', f'"random", {", ".join(entrants)}, {{'))
+    done = CliRunner().invoke(application(), ["tournament", "run", "cup.toml", *(["--dry-run"] if dry else [])])
+    assert isinstance(done.exception, EventError), done.output
+    complaints = [text for text in re.split(r"^entrant ", str(done.exception), flags=re.MULTILINE) if text]
+    assert len(complaints) == len(BAD)
+    for n, (complaint, (agent, words)) in enumerate(zip(complaints, BAD.items(), strict=True)):
+        assert complaint.startswith(f"'bad{n}': agent = {agent!r}: cannot be started: ")
+        assert words in complaint
+    if not dry:
+        assert list((tmp_path / "cup" / "games").iterdir()) == []
+        assert '"kind": "game"' not in (tmp_path / "cup" / "journal.jsonl").read_text()
+
+
+def test_an_event_goes_on_without_an_entrant_that_was_taken_out_because_it_cannot_be_started(
+    cli, tmp_path, monkeypatch
+):
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    entrants = '"random", {name = "bad", agent = "nowhere:Agent"}, {'
+    (tmp_path / "cup.toml").write_text(CUP.replace('"random", {', entrants))
+    assert isinstance(CliRunner().invoke(application(), ["tournament", "run", "cup.toml"]).exception, EventError)
+    cli("disqualify", "cup", "bad", "--reason", "cannot be started")
+    assert json.loads(cli("resume", "cup", "--executor", "inline", "--json").stdout)["state"] == "finished"

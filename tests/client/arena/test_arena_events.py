@@ -331,7 +331,11 @@ def test_a_worker_killed_in_the_middle_costs_nothing(tmp_path, whole):
 
 def test_the_sequential_test_is_evaluated_in_the_order_of_pairs(tmp_path):
     """Whatever else was finished by then: the counted games are those up to the decision."""
-    sprt = {"entrants": ["random", {"name": "dead", "agent": "stdio:false"}], "pairs": 60, "sprt": {"elo1": 300.0}}
+    sprt = {
+        "entrants": ["random", {"name": "dead", "agent": "stdio:sh -c 'read line'"}],
+        "pairs": 60,
+        "sprt": {"elo1": 300.0},
+    }
     one = begin(tmp_path / "one", **sprt)
     ledger = run(one)
     assert ledger.event.stopped

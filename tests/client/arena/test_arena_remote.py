@@ -114,7 +114,7 @@ SILENT = "import sys, time; open(sys.argv[1], 'a').write('asked\\n'); time.sleep
 
 @pytest.mark.parametrize(
     ("text", "reason", "asked"),
-    [(STUBBORN, "concession", 2), (NONSENSE, "forfeit", 40), (SILENT, "stall", 2)],
+    [(STUBBORN, "concession", {2}), (NONSENSE, "forfeit", {40}), (SILENT, "stall", {2, 3})],
     ids=["told why it was refused", "nonsense", "silent without a clock"],
 )
 def test_an_agent_meets_the_same_patience_at_a_server(tmp_path, hall, text, reason, asked):
@@ -122,16 +122,17 @@ def test_an_agent_meets_the_same_patience_at_a_server(tmp_path, hall, text, reas
     (tmp_path / "bot.py").write_text(text)
     command = f"stdio:{sys.executable} {tmp_path / 'bot.py'} {tmp_path / 'asked'}"
     entrants = ["random", {"name": "bot", "agent": command}]
-    directory = begin(tmp_path / "cup", entrants=entrants, seconds=None, hosting={"bot": {"answer_seconds": 3.0}})
+    patience = {"answer_seconds": 3.0 if text is SILENT else 120.0}
+    directory = begin(tmp_path / "cup", entrants=entrants, seconds=None, hosting={"bot": patience})
     ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
     assert [(one.reason.value, one.players[one.winner]) for one in ledger.event.counted] == [(reason, "random")] * 2
     lines = (tmp_path / "asked").read_text().splitlines()
-    assert len(lines) == asked
+    assert len(lines) in asked  # once more if it came so far when it was tried before the first game
     assert lines[0] == "asked" or "no choice is open" in lines[0]
 
 
 def test_an_agent_that_crashes_loses_for_that_reason_at_a_server_too(tmp_path, hall):
-    bad = {"name": "bad", "agent": f"stdio:{sys.executable} -c pass"}
+    bad = {"name": "bad", "agent": f"stdio:{sys.executable} -c 'input()'"}
     directory = begin(tmp_path / "cup", entrants=["random", bad])
     ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
     assert {(one.reason.value, one.players[one.winner]) for one in ledger.event.counted} == {("crash", "random")}

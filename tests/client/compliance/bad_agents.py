@@ -16,6 +16,10 @@ URL, TOKEN = os.environ["POOLIAD_URL"], os.environ["POOLIAD_TOKEN"]
 FAULT = sys.argv[1]
 
 
+if FAULT == "unstartable":
+    sys.exit("I was not installed as I should be")
+
+
 def ask(method, path, body=None, **headers):
     """Status and content of an answer; 0 when none came."""
     content = None if body is None else body if isinstance(body, bytes) else json.dumps(body).encode()

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -14,12 +15,15 @@ from client.compliance import SITUATIONS, Checker, FindingName
 from client.compliance.situations import Twist
 
 BAD = Path(__file__).parent / "bad_agents.py"
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(BAD.parent), os.environ.get("PYTHONPATH")]))
 BY_NAME = {situation.name: situation for situation in SITUATIONS}
 
 WHERE = {
     "silent": replace(BY_NAME["open table"], seconds=6.0),
     "late": replace(BY_NAME["low clock"], seconds=2.0),
     "crashes": BY_NAME["open table"],
+    "unstartable": BY_NAME["open table"],
+    "raises": BY_NAME["open table"],
     "malformed": BY_NAME["open table"],
     "refused": BY_NAME["groups"],
     "concedes": BY_NAME["open table"],
@@ -36,6 +40,13 @@ WHERE = {
 """In which situation each fault shows."""
 
 
+def command_of(fault):
+    """A program with one fault; `raises` is that of an agent in Python, whose exceptions are seen by its host."""
+    if fault == "raises":
+        return [sys.executable, "-m", "client.cli", "agent", "run", "--forever", "bad_agents_in_python:Raises"]
+    return [sys.executable, str(BAD), fault]
+
+
 def checked(hall, tmp_path, command, situations):
     checker = Checker(hall.url, hall.organiser_token, command, tmp_path)
     return checker.run(situations)
@@ -47,8 +58,52 @@ def test_every_fault_has_a_bad_agent():
 
 @pytest.mark.parametrize("fault", sorted(WHERE))
 def test_a_bad_agent_is_caught_by_name(hall, tmp_path, fault):
-    (report,) = checked(hall, tmp_path, [sys.executable, str(BAD), fault], [WHERE[fault]])
+    (report,) = checked(hall, tmp_path, command_of(fault), [WHERE[fault]])
     assert fault in {found.name.value for found in report.faults}, report
+
+
+def in_python(*options, agent):
+    """`pooliad agent check` of an agent in bad_agents_in_python.py; its exit code and report."""
+    command = [sys.executable, "-m", "client.cli", "agent", "check", agent, *options, "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    return done.returncode, json.loads(done.stdout)["situations"]
+
+
+def test_an_exception_is_called_one_with_its_traceback(server_installed, tmp_path):
+    """Seen: an agent with a slip in it was `silent`, after the whole clock of every situation."""
+    code, (first, second) = in_python(
+        "--only", "open table", "--only", "groups", "--out", str(tmp_path), agent="bad_agents_in_python:Raises"
+    )
+    assert code == 1
+    for report in (first, second):
+        (fault,) = report["faults"]
+        assert fault["name"] == "raises"
+        assert "choose raised" in fault["words"]
+        assert 'raise LookupError("no idea")' in fault["words"]
+    tries = (tmp_path / "agent.log").read_text().count("choose raised")
+    assert tries < 60, "an agent that is asked again until its clock is out fails some seventy times a situation"
+
+
+@pytest.mark.parametrize(
+    ("agent", "words"),
+    [
+        ("bad_agents_in_python:Unmade", "FileNotFoundError: model.bin"),
+        (f"stdio:{sys.executable} /no/such/script.py", "/no/such/script.py"),
+    ],
+)
+def test_what_cannot_be_started_is_called_so_at_once_and_once(server_installed, tmp_path, agent, words):
+    """Seen: every one of 25 situations waited for an agent that could not be there."""
+    code, (report,) = in_python("--out", str(tmp_path), agent=agent)
+    assert code == 1
+    assert [fault["name"] for fault in report["faults"]] == ["unstartable"]
+    assert words in report["faults"][0]["words"]
+
+
+def test_a_commands_standard_error_is_where_the_output_says(server_installed, tmp_path):
+    agent = f"stdio:{sys.executable} /no/such/script.py"
+    _, (report,) = in_python("--out", str(tmp_path), agent=agent)
+    where = re.search(r"standard error is in (\S+) and ends", report["faults"][0]["words"])[1]
+    assert "/no/such/script.py" in Path(where).read_text()
 
 
 def test_the_same_agent_without_a_fault_passes(hall, tmp_path):

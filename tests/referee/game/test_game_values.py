@@ -156,3 +156,25 @@ def test_evidence_says_only_what_it_has() -> None:
         "ball": 0,
         "pocket": 3,
     }
+
+
+@pytest.mark.parametrize(("number", "name"), list(enumerate(("SW", "W", "NW", "NE", "E", "SE"))))
+def test_a_pocket_may_be_named(number: int, name: str) -> None:
+    """The names are those of CONTRACT.md, round from the origin; what is kept is the number."""
+    assert Call(3, name) == Call(3, number)
+    assert Call(3, name).to_dict() == {"ball": 3, "pocket": number}
+    shot = Shot(1.0, 2.0)
+    for call in ((3, name), [3, number], {"ball": 3, "pocket": name}):
+        assert Action(shot=shot, call=call).call == Call(3, number)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("pocket", ["sw", "", "0", "SOUTH", None, 1.0, True])
+def test_a_pocket_that_is_none_is_answered_with_those_there_are(pocket: Any) -> None:
+    with pytest.raises(InvalidAction, match=r"call.pocket = .*: must be 0 to 5, or SW, W, NW, NE, E, SE"):
+        Call(3, pocket)
+
+
+@pytest.mark.parametrize("call", [(3,), (3, 0, 1), (), "3 SW"])
+def test_a_call_of_another_form_is_explained(call: Any) -> None:
+    with pytest.raises(InvalidAction, match=r"call = .*: must be a Call, \(ball, pocket\)"):
+        Action(shot=Shot(1.0, 2.0), call=call)
