@@ -9,7 +9,7 @@ from protocol.strokes import since_own_last
 from referee.errors import RefereeError
 from referee.game import Action, EndReason, Game, Outcome
 from referee.play.budget import Budgets, GrantedBudget, budgets
-from referee.play.clock import SECOND_NS, Clocks
+from referee.play.clock import SECOND_NS, Clocks, Timing
 from referee.play.noise import NoiseModel
 from referee.play.seeds import GameSeeds, MatchSeed
 from referee.play.stroke import Refused, Stroke, play_stroke
@@ -37,19 +37,6 @@ class Lost(Exception):
     def __init__(self, reason: EndReason) -> None:
         super().__init__(reason.value)
         self.reason = reason
-
-
-@dataclass(frozen=True, slots=True)
-class Timing:
-    """Clocks for a local game, read from a time that is handed in: the referee itself knows none.
-
-    Attributes:
-        allowance_ns: for each player.
-        now: nanoseconds that only grow; they are read before and after a player is asked.
-    """
-
-    allowance_ns: int
-    now: Callable[[], int]
 
 
 @dataclass(frozen=True, slots=True)

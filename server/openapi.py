@@ -7,44 +7,10 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
-from protocol import (
-    AcceptRequest,
-    AgentRequest,
-    BatchRequest,
-    ClientSeedRequest,
-    DecisionRequest,
-    DisqualifyRequest,
-    ForfeitRequest,
-    InvitationRequest,
-    MatchRequest,
-    MinElevationRequest,
-    Problem,
-    ShotRequest,
-    SimulateRequest,
-    TokenRequest,
-    TournamentRequest,
-    VoidRequest,
-)
+import protocol
 from server.http.describe import TOKEN_SCHEME
 
 REFERENCE = "#/components/schemas/{model}"
-REQUESTS: tuple[type[BaseModel], ...] = (
-    AcceptRequest,
-    AgentRequest,
-    BatchRequest,
-    ClientSeedRequest,
-    DecisionRequest,
-    DisqualifyRequest,
-    ForfeitRequest,
-    InvitationRequest,
-    MatchRequest,
-    MinElevationRequest,
-    ShotRequest,
-    SimulateRequest,
-    TokenRequest,
-    TournamentRequest,
-    VoidRequest,
-)
 
 
 def document(app: FastAPI) -> dict[str, Any]:
@@ -66,8 +32,8 @@ def _document(app: FastAPI) -> dict[str, Any]:
     schemas: dict[str, Any] = components.setdefault("schemas", {})
     for name in ("HTTPValidationError", "ValidationError"):
         schemas.pop(name, None)
-    _, requests = models_json_schema([(model, "validation") for model in REQUESTS], ref_template=REFERENCE)
-    _, problem = models_json_schema([(Problem, "serialization")], ref_template=REFERENCE)
+    _, requests = models_json_schema([(model, "validation") for model in _bodies(made)], ref_template=REFERENCE)
+    _, problem = models_json_schema([(protocol.Problem, "serialization")], ref_template=REFERENCE)
     schemas |= problem["$defs"] | schemas | requests["$defs"]
     components["securitySchemes"] = {TOKEN_SCHEME: {"type": "http", "scheme": "bearer"}}
     for operations in made["paths"].values():
@@ -77,6 +43,13 @@ def _document(app: FastAPI) -> dict[str, Any]:
                 schema = parameter["schema"] = _without_null(parameter["schema"])
                 parameter["required"] = parameter["required"] or schema.get("minItems", 0) > 0
     return made
+
+
+def _bodies(made: dict[str, Any]) -> list[type[BaseModel]]:
+    """The messages that operations take: `describe` names them, and the framework does not look them up."""
+    bodies = (each["requestBody"] for path in made["paths"].values() for each in path.values() if "requestBody" in each)
+    references = {body["content"]["application/json"]["schema"]["$ref"] for body in bodies}
+    return [getattr(protocol, reference.rsplit("/", 1)[-1]) for reference in sorted(references)]
 
 
 def _without_null(schema: dict[str, Any]) -> dict[str, Any]:

@@ -16,12 +16,13 @@ from typing import Any, BinaryIO
 from client.agent import AgentFactory
 from client.agents.registry import load
 from client.errors import AgentFailed, NonsenseAnswer
-from client.local_game import Lost, Timing, play_game
+from client.local_game import Lost, play_game
 from client.session import AgentSession, GameSessions, Session
 from physics import Table
 from protocol import TURN_MESSAGE, GameOver, Turn, View
 from referee import Action, EightBall, EndReason, NoiseModel
 from referee.play import MatchSeed, nanoseconds
+from referee.play.clock import Timing
 
 REFUSED = b'{"type": "refused"'
 """How a line begins that says why the last action was not accepted."""

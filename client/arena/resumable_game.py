@@ -13,13 +13,14 @@ from typing import IO, Any
 
 from client.arena.directory import flush_folder
 from client.local import over_message
-from client.local_game import TRIES, BadAction, Lost, PlayedGame, Timing, Watch, play_game, points_of
+from client.local_game import TRIES, BadAction, Lost, PlayedGame, Watch, play_game, points_of
 from client.session import Session
 from physics import Table
 from protocol import View
 from referee import Action, EightBall, EndReason, GameSeeds, NoiseModel
 from referee.play import Refused, nanoseconds
 from referee.play.budget import Budgets, budgets
+from referee.play.clock import Timing
 from referee.record import line_digest, read_record
 from referee.record.canonical import canonical, parse
 from tournament import Due, GameResult

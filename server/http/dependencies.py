@@ -141,14 +141,8 @@ async def _in_hand(game_id: str, request: Request) -> AsyncIterator[None]:
 
     Runs on the loop, before any queueing; over when there is an answer, whether or not it is being read.
     """
-    in_hand, arrived = context_of(request).in_hand, request.state.arrived
-    in_hand[game_id].append(arrived)
-    try:
+    with context_of(request).in_hand.working_on(game_id, request.state.arrived):
         yield
-    finally:
-        in_hand[game_id].remove(arrived)
-        if not in_hand[game_id]:
-            del in_hand[game_id]
 
 
 InHand = Depends(_in_hand, scope="function")

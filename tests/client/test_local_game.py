@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 import pytest
 from support.players import Potter
 
-from client.local_game import TRIES, BadAnswer, Lost, Timing, Watch, play_game, play_match, points_of
+from client.local_game import TRIES, BadAnswer, Lost, Watch, play_game, play_match, points_of
 from physics import Shot, Table
 from referee.game import Action, EndReason, Outcome
 from referee.play import MatchSeed, NoiseModel
+from referee.play.clock import Timing
 from referee.play.stroke import Refused
 from referee.record import line_digest, verify_record
 from referee.rules import EightBall

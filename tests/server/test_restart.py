@@ -19,7 +19,7 @@ from server.security.callers import ORGANISER
 from server.services.accounts import agents
 from server.services.matches import matches
 from server.services.matches.player_seeds import begin_due
-from server.services.play.clock import ledger
+from server.services.play.clock import ledger, standstill
 from server.services.play.clock.flag import flag
 from server.services.runtime import heartbeat
 from server.store import tables
@@ -56,7 +56,7 @@ def stage(tmp_path):
 def stopped_in_a_turn(stage):
     """A game of whose first turn 2 of 10 seconds are gone, and its server for an hour."""
     heartbeat.begin(stage.context, "first", alone=True)
-    heartbeat.release(stage.context)
+    standstill.release(stage.context)
     seats = stage.game("ann", "bob")
     seats.fetch()
     stage.time.pass_(2.0)
@@ -83,7 +83,7 @@ def test_however_long_the_start_takes_the_clock_stands(stage):
         heartbeat.beat(stage.context, "second")
         flag(stage.context)
         assert clock_of(stage, seats) == (8.0, False)
-    heartbeat.release(stage.context)
+    standstill.release(stage.context)
     assert clock_of(stage, seats) == (8.0, False)
     stage.time.pass_(stage.context.settings.fetch_grace + 8.0 - 1e-6)
     flag(stage.context)
@@ -93,13 +93,29 @@ def test_however_long_the_start_takes_the_clock_stands(stage):
     assert status(stage, tables.games, seats.id) == "finished", "once released, a turn that nobody fetches runs out"
 
 
+def test_a_turn_whose_time_was_up_before_the_stop_ends_once_released(stage):
+    """Its deadline passed, the flag was not seen to before the crash: the hold dated it before any release looked."""
+    heartbeat.begin(stage.context, "first", alone=True)
+    standstill.release(stage.context)
+    seats = stage.game("ann", "bob")
+    seats.fetch()
+    stage.time.pass_(11.0)
+    heartbeat.beat(stage.context, "first")
+    stage.time.pass_(3600.0)
+    heartbeat.begin(stage.context, "second", alone=True)
+    standstill.release(stage.context)
+    stage.time.pass_(stage.context.settings.fetch_grace)
+    flag(stage.context)
+    assert status(stage, tables.games, seats.id) == "finished"
+
+
 def test_a_turn_fetched_before_the_release_runs_from_the_fetch(stage):
     seats = stopped_in_a_turn(stage)
     heartbeat.begin(stage.context, "second", alone=True)
     stage.time.pass_(1000.0)
     assert seats.fetch()["clocks"][seats.breaker]["seconds_left"] == 8.0
     stage.time.pass_(3.0)
-    heartbeat.release(stage.context)
+    standstill.release(stage.context)
     stage.time.pass_(1.0)
     assert clock_of(stage, seats) == (4.0, True)
 
@@ -116,7 +132,7 @@ def test_a_second_death_before_the_release_loses_nothing(stage):
     for process in ("second", "third"):
         heartbeat.begin(stage.context, process, alone=True)
         stage.time.pass_(1000.0)
-    heartbeat.release(stage.context)
+    standstill.release(stage.context)
     assert clock_of(stage, seats) == (8.0, False)
 
 
@@ -134,7 +150,7 @@ def test_the_time_to_add_seeds_goes_on_where_it_was(stage):
         stage.time.pass_(1000.0)
         begin_due(stage.context)
         assert status(stage, tables.matches, match) == "opening"
-    heartbeat.release(stage.context)
+    standstill.release(stage.context)
     stage.time.pass_(20.0 - 1 / SECOND)
     begin_due(stage.context)
     assert status(stage, tables.matches, match) == "opening"

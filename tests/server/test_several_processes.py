@@ -359,17 +359,16 @@ def test_a_flag_waits_for_a_request_in_hand_at_another_process(postgres):
     here, there = Context(Settings(), database), Context(Settings(), database)
     deadline = here.time.now()
     heartbeat.begin(here, "here", alone=True)
-    there.in_hand["some game"].append(deadline - 1)
-    heartbeat.begin(there, "there", alone=False)
-    with database.reading() as connection:
-        assert not heartbeat.is_clear(connection, here, deadline)
-        assert heartbeat.is_clear(connection, here, deadline - 1)
-    there.in_hand.clear()
+    with there.in_hand.working_on("some game", deadline - 1):
+        heartbeat.begin(there, "there", alone=False)
+        with database.reading() as connection:
+            assert not heartbeat.is_clear(connection, here, deadline)
+            assert heartbeat.is_clear(connection, here, deadline - 1)
     heartbeat.beat(there, "there")
     with database.reading() as connection:
         assert heartbeat.is_clear(connection, here, deadline)
-    there.in_hand["some game"].append(deadline - 1)
-    heartbeat.beat(there, "there")
+    with there.in_hand.working_on("some game", deadline - 1):
+        heartbeat.beat(there, "there")
     patient = Context(Settings(heartbeat_period=1e-6), database)
     with database.reading() as connection:
         assert heartbeat.is_clear(connection, patient, deadline)

@@ -85,17 +85,16 @@ def test_exactly_zero_is_out_of_time(context, turn):
 
 
 def test_a_request_that_came_in_time_holds_the_flag_until_it_is_done(context, turn):
-    context.in_hand[turn[0]].append(context.time.now() + 10 * SECOND - 1)
-    context.time.value += 15 * SECOND
-    assert not ended(context, turn)
-    context.in_hand.clear()
+    with context.in_hand.working_on(turn[0], context.time.now() + 10 * SECOND - 1):
+        context.time.value += 15 * SECOND
+        assert not ended(context, turn)
     assert ended(context, turn)
 
 
 def test_a_request_that_came_too_late_does_not(context, turn):
-    context.in_hand[turn[0]].append(context.time.now() + 10 * SECOND)
-    context.time.value += 15 * SECOND
-    assert ended(context, turn)
+    with context.in_hand.working_on(turn[0], context.time.now() + 10 * SECOND):
+        context.time.value += 15 * SECOND
+        assert ended(context, turn)
 
 
 def test_redelivery_never_restarts_the_clock(context, turn):

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -92,7 +93,7 @@ class Stage:
         """Whoever has this view plays, or concedes where the referee refuses."""
         key, version = f"a{view['version']}", view["version"]
         command = self.command(seats.ids[view["seat"]], json.dumps(action).encode(), key, version)
-        act = strokes.decide if "decision" in action else strokes.shoot
+        act = strokes.decide if "decision" in action else partial(strokes.shoot, may_be_long=True)
         try:
             act(self.context, seats.id, lambda _: command)
         except Refused:

@@ -12,16 +12,17 @@ from sqlalchemy import Row, bindparam, insert, select, update
 
 from referee.game import EndReason, Game
 from referee.play import Charge, GrantedBudget
+from referee.play.clock import GameClock
 from referee.record import Chain, Header, end_entry, signed_seal
 from server.security import keys
 from server.services.matches import match_seeds
 from server.services.matches.secrecy import withheld
 from server.services.play import agent_messages
-from server.services.play.clock import turn_clock
+from server.services.play.clock import columns, ledger
 from server.services.play.live_game import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of
 from server.services.runtime.context import Writing
 from server.store.database import Overtaken
-from server.store.tables import charges, games, matches
+from server.store.tables import games, matches
 
 log = logging.getLogger("pooliad.server.games")
 
@@ -55,13 +56,13 @@ def begin(writing: Writing, match: Row[Any], number: int) -> None:
         "state": game.to_dict(),
         "version": FIRST_VERSION,
         "status": RUNNING,
-        **dict.fromkeys(("used_0", "used_1", "lag_0", "lag_1", "grace_0", "grace_1", "simulated_0", "simulated_1"), 0),
-        **dict.fromkeys(("present_0", "present_1"), False),
+        "simulated_0": 0,
+        "simulated_1": 0,
         "started_at": writing.now,
         "header": chain.add(header.to_dict()),
         "head": chain.head,
     }
-    turn = turn_clock.mover(match, game) | turn_clock.available(writing, turn_clock.first_turn(writing, match))
+    turn = _turn(writing, match, game, _offered(writing, columns.fresh(match), game.turn))
     writing.connection.execute(insert(games).values(row | turn))
 
 
@@ -96,8 +97,11 @@ def advance(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
     """
     if game.is_over:
         return _finish(writing, live, game, end, chain)
-    turn = _next_turn(writing, live, game, end.charge)
-    return _store(writing, live, game, end, turn | {"head": chain.head})
+    clock = live.clock.ended(end.charge, moved=True)
+    # a mover who stays at the table has the next view in the answer: the clock goes on at once
+    stays = game.turn == live.game.turn
+    clock = clock.handed(game.turn, writing.now) if stays else _offered(writing, clock, game.turn)
+    return _store(writing, live, game, end, _turn(writing, live.match, game, clock) | {"head": chain.head})
 
 
 def end_from_outside(
@@ -108,7 +112,7 @@ def end_from_outside(
     The running turn is charged until now, or until a moment in the past when it was over; what follows begins now.
     """
     ruling = live.rules.end(live.game, reason, loser)
-    charge = live.charge_until(writing.now if until is None else until)
+    charge = live.clock.charge(writing.now if until is None else until)
     return _finish(writing, live, ruling.game, TurnEnd(charge), Chain(live.row.head))
 
 
@@ -137,7 +141,7 @@ def _finish(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, chain: C
         "status": ABORTED if aborted else FINISHED,
         "winner": outcome.winner,
         "mover": None,
-        "deadline": None,
+        **columns.written(live.clock.ended(end.charge, moved=end.move is not None), writing.context.settings),
         "ended_at": writing.now,
         "ending": ending,
         "seal": chain.add(seal),
@@ -167,44 +171,26 @@ def _go_on(writing: Writing, live: LiveGame) -> None:
     writing.context.match_over(writing, live.match.id)
 
 
-def _next_turn(writing: Writing, live: LiveGame, game: Game, charge: Charge) -> dict[str, Any]:
-    """The columns of the turn that follows a move."""
-    seat, stays = game.turn, game.turn == live.game.turn
-    granted = live.granted[seat] + (charge.lag_ns if stays else 0)
-    clock = turn_clock.TurnClock(
-        remaining=live.clocks.charged(live.game.turn, charge.charged_ns).remaining_ns(seat),
-        lag=live.fixture.lag.left_ns(granted),
-        grace=0 if stays else writing.context.grace.left_ns(live.graces[seat]),
-        present=stays or live.is_present[seat],
-    )
-    # a mover who stays at the table has the next view in the answer: the clock goes on at once
-    turn = turn_clock.delivered(clock, writing.now, writing.now) if stays else turn_clock.available(writing, clock)
-    return turn_clock.mover(live.match, game) | turn
+def _offered(writing: Writing, clock: GameClock, seat: int) -> GameClock:
+    return clock.offered(seat, writing.now, columns.fetch_grace(writing.context.settings))
+
+
+def _turn(writing: Writing, match: Row[Any], game: Game, clock: GameClock) -> dict[str, Any]:
+    """The columns of a turn: whose it is, and the clock."""
+    return {"mover": (match.seat_0, match.seat_1)[game.turn]} | columns.written(clock, writing.context.settings)
 
 
 def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, turn: dict[str, Any]) -> LiveGame:
     """Compare-and-set on all that was read and may change, and a row in the ledger of the clocks."""
-    seat, charge = live.game.turn, end.charge
-    values: dict[str, Any] = {
-        "state": game.to_dict(),
-        "version": live.row.version + 1,
-        f"used_{seat}": live.clocks.used_ns[seat] + charge.charged_ns,
-        f"lag_{seat}": live.granted[seat] + charge.lag_ns,
-        f"grace_{seat}": live.graces[seat] + charge.grace_ns,
-        f"present_{seat}": live.is_present[seat] or end.move is not None,
-    } | turn
+    values: dict[str, Any] = {"state": game.to_dict(), "version": live.row.version + 1} | turn
     seen = {f"seen_{name}": getattr(live.row, name) for name in _COMPARED}
     if writing.connection.execute(_IF_UNCHANGED, values | seen).rowcount != 1:
         raise MoveConflict
-    row = {"game_id": live.id, "seat": seat, "move": end.move, "created_at": writing.now}
-    parts = {"measured": charge.measured_ns, "lag": charge.lag_ns, "grace": charge.grace_ns}
-    writing.connection.execute(_CHARGE, row | parts)
+    ledger.enter(writing, live, end.move, end.charge)
     return replace(live, row=replace(live.row, **values), game=game)
 
 
-_CHARGE: Final = insert(charges)
-_CLOCKED: Final = ("delivered", "available_at", "clock_from", "carried", "carried_grace")
-_COMPARED: Final = ("id", "version", *_CLOCKED, "present_0", "present_1")
+_COMPARED: Final = ("id", "version", *columns.COMPARED)
 """Columns by which a game is known to be as it was read: the rest changes with its version alone, but for the counters
 of simulated shots, which are added to and not written: whoever simulates bounces nobody's stroke."""
 _IF_UNCHANGED: Final = update(games).where(*(games.c[name] == bindparam(f"seen_{name}") for name in _COMPARED))

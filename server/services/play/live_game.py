@@ -10,12 +10,14 @@ from sqlalchemy import Connection, Row, Select, bindparam, func, select
 from physics import Table
 from protocol import BudgetView, ClockView, GameTerms, NoiseView, StrokeView, View
 from referee.game import Game
-from referee.play import Charge, Clocks, GameSeeds, LagAllowance, NoiseModel
+from referee.play import GameSeeds, NoiseModel
+from referee.play.clock import GameClock
 from referee.rules import EightBall
 from server.errors import Forbidden, NotFound
 from server.security.callers import Caller
 from server.services.matches import match_seeds
 from server.services.matches.secrecy import Holder, withheld
+from server.services.play.clock import columns
 from server.store import locks
 from server.store.rows import GameRow
 from server.store.tables import agents, games, matches, moves
@@ -50,11 +52,6 @@ class Fixture:
     def noise(self) -> NoiseModel:
         """The execution noise of the match."""
         return NoiseModel(self.match.noise_level, self.match.noise_told)
-
-    @cached_property
-    def lag(self) -> LagAllowance:
-        """What this match gives back for the way to the server and back."""
-        return LagAllowance(self.match.lag_turn, self.match.lag_game)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,24 +99,9 @@ class LiveGame:
         return match_seeds.kept_seeds(self.match, self.row)
 
     @property
-    def clocks(self) -> Clocks:
-        """Both clocks as charged so far, the running turn not counted."""
-        return Clocks(self.match.allowance, (self.row.used_0, self.row.used_1))
-
-    @property
-    def granted(self) -> tuple[int, int]:
-        """What was given back so far in this game, ns by seat."""
-        return self.row.lag_0, self.row.lag_1
-
-    @property
-    def graces(self) -> tuple[int, int]:
-        """What was given back so far in this game for turns fetched late, ns by seat."""
-        return self.row.grace_0, self.row.grace_1
-
-    @property
-    def is_present(self) -> tuple[bool, bool]:
-        """Whether each player ever fetched a turn of this game or played one."""
-        return self.row.present_0, self.row.present_1
+    def clock(self) -> GameClock:
+        """Both players' clocks, and the turn that runs."""
+        return columns.read(self.row, self.match, self.game.turn if self.is_running else None)
 
     def seat_of(self, caller: Caller) -> int:
         """The caller's seat; raises `Forbidden` for anybody but the two players."""
@@ -127,48 +109,9 @@ class LiveGame:
             raise Forbidden("this is for the game's two players")
         return self.agents.index(caller.id)
 
-    def running_for(self, now: int) -> int:
-        """Nanoseconds that the running turn's clock has run since it started, or since the server did."""
-        return max(0, now - self.row.clock_from) if self.is_running else 0
-
-    def grace_until(self, now: int) -> int:
-        """What was given back of the running turn until then, for the wait until it was fetched."""
-        waited = max(0, min(now, self.row.clock_from) - self.row.available_at)
-        return self.row.carried_grace + waited if self.is_running else 0
-
-    def charge_until(self, now: int) -> Charge:
-        """What the running turn costs if it ends now."""
-        carried = self.row.carried if self.is_running else 0
-        return self._charge(carried + self.running_for(now), self.grace_until(now))
-
-    def charge_of_action(self, arrived: int) -> Charge:
-        """What the running turn costs if the action that ends it was complete at `arrived`.
-
-        Nothing is given back of a turn that was never fetched: whoever acts knows the view from elsewhere, and did not
-        wait for the fetch.
-        """
-        if self.row.delivered:
-            return self.charge_until(arrived)
-        return self._charge(self.row.carried + max(0, arrived - self.row.available_at), self.row.carried_grace)
-
-    def is_out_of_time(self, arrived: int) -> bool:
-        """Whether an action complete at `arrived` is too late; exactly zero left is."""
-        turn = self.game.turn
-        return self.clocks.charged(turn, self.charge_of_action(arrived).charged_ns).is_out_of_time(turn)
-
-    def _charge(self, ran: int, grace: int) -> Charge:
-        return self.fixture.lag.charge(ran + grace, self.granted[self.game.turn], grace)
-
     def clock_views(self, now: int) -> tuple[ClockView, ClockView]:
         """Both clocks as they stand now."""
-        turn, running = self.game.turn, self.running_for(now) > 0
-        clocks = self.clocks.charged(turn, self.charge_until(now).charged_ns)
-        return self._clock(clocks, 0, running and turn == 0), self._clock(clocks, 1, running and turn == 1)
-
-    def _clock(self, clocks: Clocks, seat: int, running: bool) -> ClockView:
-        return ClockView(
-            seconds_left=clocks.remaining_seconds(seat), running=running, simulations_left=self.simulations_left(seat)
-        )
+        return columns.views(self.clock, now, (self.simulations_left(0), self.simulations_left(1)))
 
     def simulations_left(self, seat: int) -> int | None:
         """Shots that this seat may still simulate; None for any number."""

@@ -86,7 +86,7 @@ def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command],
         asked = read(command)
         budget.require_left(live, seat, asked.simulated)  # before any noise is drawn
         stroke = _played(live, asked.action, may_be_long)
-    end = games.TurnEnd(live.charge_of_action(command.arrived), games.next_move(live))
+    end = games.TurnEnd(live.clock.charge_of_action(command.arrived), games.next_move(live))
     told = _Told.of(live, stroke, end)
     context.failpoint("shot-simulated")
     with context.writing() as writing:
@@ -150,7 +150,7 @@ def _require_turn(connection: Connection, live: LiveGame, seat: int, command: Co
         )
     if live.game.turn != seat:
         raise errors.NotYourTurn(f"it is the turn of seat {live.game.turn}, {live.fixture.players[live.game.turn]}")
-    if live.is_out_of_time(command.arrived):
+    if live.clock.is_too_late(command.arrived):
         raise errors.OutOfTime("your time had run out when the request was complete")
 
 

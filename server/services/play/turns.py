@@ -2,15 +2,16 @@
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from dataclasses import replace
 from typing import Any
 
 from sqlalchemy import Connection, Row, select, update
 from starlette.concurrency import run_in_threadpool
 
 from protocol import Turn
-from server.services.play.clock import turn_clock
+from server.services.play.clock import columns
 from server.services.play.live_game import find
-from server.services.runtime.context import Context
+from server.services.runtime.context import Context, Writing
 from server.store.locks import hold_match_of, only_one
 from server.store.tables import games, notices
 
@@ -67,7 +68,7 @@ def next_message(context: Context, agent: str) -> bytes | None:
             return None
         hold_match_of(connection, turn.id)
         turn = _waiting_turn(connection, agent, now, turn.id)  # as it is now that nobody else changes it
-        message = None if turn is None else _delivered(connection, turn, agent, now)
+        message = None if turn is None else _delivered(writing, turn, agent)
         context.failpoint("turn-delivered")
         return message
 
@@ -91,13 +92,12 @@ def _waiting_turn(connection: Connection, agent: str, now: int, game_id: str | N
     return connection.execute(turns.order_by(games.c.delivered, games.c.available_at).limit(1)).first()
 
 
-def _delivered(connection: Connection, turn: Row[Any], agent: str, now: int) -> bytes:
+def _delivered(writing: Writing, turn: Row[Any], agent: str) -> bytes:
     """The turn as a message; the first delivery starts the clock, unless it runs already."""
-    live = find(connection, turn.id)
+    live = find(writing.connection, turn.id)
     if not turn.delivered:
-        started = turn_clock.delivered(turn_clock.running_turn(live), turn.available_at, min(turn.clock_from, now))
-        started[f"present_{live.game.turn}"] = True
-        connection.execute(update(games).where(games.c.id == turn.id).values(**started))
-        live = find(connection, turn.id)
-    view = live.view(connection, live.agents.index(agent), now)
+        started = columns.written(live.clock.fetched(writing.now), writing.context.settings)
+        writing.connection.execute(update(games).where(games.c.id == turn.id).values(started))
+        live = replace(live, row=replace(live.row, **started))
+    view = live.view(writing.connection, live.agents.index(agent), writing.now)
     return Turn(game=turn.id, view=view).model_dump_json().encode()

@@ -1,7 +1,6 @@
 """What every service works with: made once by `create_app`, handed down, never global."""
 
 import threading
-from collections import defaultdict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -11,12 +10,13 @@ from anyio import CapacityLimiter, to_thread
 from sqlalchemy import Connection
 
 from physics.self_test import SelfTest
-from referee.play import LagAllowance, nanoseconds
+from referee.play.clock import nanoseconds
 from server import failpoints
 from server.failpoints import Failpoint
 from server.ops.metrics import Metrics
 from server.security.limits import RequestLimits
 from server.services.physics.pool import PhysicsPool
+from server.services.play.clock.in_hand import RequestsInHand
 from server.services.play.game_cache import GameCache
 from server.services.play.long_strokes import LongStrokes
 from server.services.runtime.heartbeat_health import HeartbeatHealth
@@ -42,7 +42,7 @@ class Context:
         self_test: what the physics' self-test came to, once it has passed.
         aside: threads for what must not wait behind requests: signs of life, the timer, what is asked about health.
         pulse: whether the signs of life reach the database.
-        in_hand: for each game the arrival times of the requests that are being worked on.
+        in_hand: the requests that are being worked on.
         courses: how the tournaments stand that were asked for last.
         failpoint: told every step at which tests have the process killed.
         match_over: called when a match has ended, with its id, in the transaction that ended it.
@@ -63,7 +63,7 @@ class Context:
     limits: RequestLimits = field(init=False)
     physics: PhysicsPool = field(init=False)
     long_strokes: LongStrokes = field(default_factory=LongStrokes)
-    in_hand: defaultdict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
+    in_hand: RequestsInHand = field(default_factory=RequestsInHand)
     courses: TournamentCache = field(default_factory=TournamentCache)
     failpoint: Failpoint = field(default_factory=lambda: failpoints.parse(""))
     match_over: Callable[["Writing", str], None] = lambda writing, match_id: None
@@ -77,16 +77,6 @@ class Context:
         """What `work` returns, done by a thread that no request can keep busy."""
         return await to_thread.run_sync(work, limiter=self.aside)
 
-    @property
-    def grace(self) -> LagAllowance:
-        """What is given back of a turn for the wait until its player fetches it."""
-        return LagAllowance(nanoseconds(self.settings.fetch_grace), nanoseconds(self.settings.fetch_grace_game))
-
-    @property
-    def no_show_after(self) -> int:
-        """Nanoseconds that a player's first turn in a game may wait to be fetched."""
-        return nanoseconds(self.settings.no_show_seconds)
-
     @contextmanager
     def writing(self) -> Iterator["Writing"]:
         """A transaction that commits at the end of the block and rolls back when it raises.
@@ -99,17 +89,6 @@ class Context:
         self.courses.keep(writing.courses)
         if writing.woken:
             self.wakeups.notify(writing.woken)
-
-    def clear_until(self, now: int) -> int:
-        """Every request that was complete here before then is done."""
-        return min([now, *(arrived for ours in tuple(self.in_hand.values()) for arrived in tuple(ours))])
-
-    def is_in_hand(self, game_id: str, deadline: int) -> bool:
-        """Whether a request that came before the deadline is being worked on.
-
-        The mover's clock may have stopped.
-        """
-        return any(arrived < deadline for arrived in tuple(self.in_hand.get(game_id, ())))
 
 
 @dataclass(frozen=True, slots=True)

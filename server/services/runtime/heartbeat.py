@@ -9,19 +9,16 @@ import asyncio
 import contextlib
 import logging
 import secrets
-from collections.abc import AsyncIterator, Iterator
-from typing import Any
+from collections.abc import AsyncIterator
 
-from sqlalchemy import ColumnElement, Connection, case, delete, func, insert, select, update
+from sqlalchemy import Connection, delete, func, insert, select, update
 
 from referee.play.clock import SECOND_NS
 from server.errors import Unavailable
-from server.services.play.clock import turn_clock
-from server.services.play.clock.turn_clock import HELD
-from server.services.play.live_game import RUNNING, LiveGame, find
+from server.services.play.clock import standstill
 from server.services.runtime.context import Context, Writing
-from server.store.locks import hold_match_of, only_one
-from server.store.tables import games, heartbeats, matches
+from server.store.locks import only_one
+from server.store.tables import heartbeats
 
 log = logging.getLogger("pooliad.server.heartbeat")
 
@@ -84,7 +81,7 @@ class Heartbeat:
             self._context.database.try_writing()
 
     def _release(self) -> None:
-        release(self._context)
+        standstill.release(self._context)
         self._releases = False
 
     async def _run(self) -> None:
@@ -100,24 +97,14 @@ class Heartbeat:
 
 
 def begin(context: Context, process: str, *, alone: bool) -> None:
-    """The first heartbeat; `alone` the process also holds the games that stood still, until `release`."""
+    """The first heartbeat; `alone` the process also holds the games that stood still, until `standstill.release`."""
     with context.writing() as writing:
         if alone:
             last = writing.connection.scalar(select(func.max(heartbeats.c.beat_at)))
-            _hold(writing, writing.now if last is None else min(last, writing.now))
+            standstill.hold(writing, writing.now if last is None else min(last, writing.now))
             writing.connection.execute(delete(heartbeats))
         _beat(writing, process, stopped=False)
     context.pulse.felt(writing.now)
-
-
-def release(context: Context) -> None:
-    """Let what is held go on, as of now: turns can be fetched, players have the rest of their time to add seeds."""
-    with context.writing() as writing:
-        for live in _running(writing, games.c.deadline >= HELD):
-            _store(writing, live, turn_clock.available(writing, turn_clock.carried_on(writing, live, writing.now)))
-        waits = matches.c.opens_until
-        going_on = update(matches).where(waits >= HELD).values(opens_until=waits - HELD + writing.now)
-        writing.connection.execute(going_on)
 
 
 def beat(context: Context, process: str, *, stopped: bool = False) -> None:
@@ -137,7 +124,7 @@ def _make_up_for_outage(writing: Writing) -> None:
     last = _last_before_outage(writing)
     if last is not None:
         log.warning("no heartbeats for %.1f s; games go on from the last", (writing.now - last) / SECOND_NS)
-        _take_up_games(writing, last)
+        standstill.make_up(writing, last)
 
 
 def _last_before_outage(writing: Writing) -> int | None:
@@ -151,7 +138,7 @@ def _beat(writing: Writing, process: str, stopped: bool) -> None:
     this = heartbeats.c.process == process
     values = {
         "beat_at": writing.now,
-        "clear_until": writing.context.clear_until(writing.now),
+        "clear_until": writing.context.in_hand.clear_until(writing.now),
         "stopped": stopped,
         "present": sorted(writing.context.presence.here(writing.now)),
     }
@@ -165,33 +152,3 @@ def is_clear(connection: Connection, context: Context, deadline: int) -> bool:
     alive = heartbeats.c.stopped.is_(False) & (heartbeats.c.beat_at > since)
     behind = select(heartbeats.c.process).where(alive, heartbeats.c.clear_until < deadline).limit(1)
     return connection.execute(behind).first() is None
-
-
-def _hold(writing: Writing, last: int) -> None:
-    """Charge every running turn up to the last heartbeat; nothing runs on until `release`."""
-    for live in _running(writing):
-        _store(writing, live, turn_clock.held(turn_clock.carried_on(writing, live, last)))
-    waits = matches.c.opens_until
-    left = case((waits > last, waits - last), else_=0)
-    writing.connection.execute(update(matches).where(waits < HELD).values(opens_until=HELD + left))
-
-
-def _take_up_games(writing: Writing, last: int) -> None:
-    """Charge every running turn up to the last heartbeat; it can be fetched anew at once, for the server listens."""
-    for live in _running(writing):
-        _store(writing, live, turn_clock.available(writing, turn_clock.carried_on(writing, live, last)))
-
-
-def _running(writing: Writing, *conditions: ColumnElement[bool]) -> Iterator[LiveGame]:
-    """The running games that satisfy the conditions, each locked by the transaction."""
-    found = select(games.c.id).where(games.c.status == RUNNING, *conditions)
-    for game_id in writing.connection.scalars(found).all():
-        hold_match_of(writing.connection, game_id)
-        live = find(writing.connection, game_id)
-        if live.is_running:
-            yield live
-
-
-def _store(writing: Writing, live: LiveGame, turn: dict[str, Any]) -> None:
-    writing.connection.execute(update(games).where(games.c.id == live.id).values(turn))
-    writing.woken.update(live.agents)

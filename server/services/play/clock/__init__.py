@@ -1,1 +1,4 @@
-"""A game's clock: when a turn runs out, what it was charged, and the flag that ends the game."""
+"""A game's clock at the server: its columns, views and ledger, the flag that ends the game, and what a stop costs.
+
+The arithmetic is `referee.play.clock`.
+"""

@@ -12,7 +12,6 @@ from referee.game import EndReason
 from server.errors import Unavailable
 from server.services.matches.player_seeds import begin_due
 from server.services.play import games as course
-from server.services.play.clock import turn_clock
 from server.services.play.live_game import find
 from server.services.runtime import heartbeat
 from server.services.runtime.context import Context
@@ -77,12 +76,12 @@ def _flag(context: Context, game_id: str, now: int) -> None:
             return
         live = find(writing.connection, game_id)
         deadline = live.row.deadline
-        if deadline is None or deadline > now or context.is_in_hand(game_id, deadline):
+        if deadline is None or deadline > now or context.in_hand.has_before(game_id, deadline):
             return
         if context.database.is_shared and not heartbeat.is_clear(writing.connection, context, deadline):
             return
         # the deadline of a turn that nobody ever fetched may come before its clock runs out
-        timed_out = deadline >= turn_clock.running_turn(live).runs_out(live.row.clock_from)
+        timed_out = deadline >= live.clock.runs_out()
         reason = EndReason.TIME_OUT if timed_out else EndReason.NO_SHOW
         course.end_from_outside(writing, live, reason, live.game.turn, until=deadline)
     context.wakeups.notify(live.agents)

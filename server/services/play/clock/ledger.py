@@ -1,14 +1,14 @@
 """The ledger of a game's clocks: what each turn took, what of it was given back, and what was charged."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Final
 
-from sqlalchemy import Row, select
+from sqlalchemy import Row, insert, select
 
 from protocol import ChargeView, ClockLedger, SeatLedger
-from referee.play.clock import SECOND_NS
+from referee.play.clock import SECOND_NS, Charge
 from server.services.play.live_game import LiveGame, find
-from server.services.runtime.context import Context
+from server.services.runtime.context import Context, Writing
 from server.services.runtime.time import date_time
 from server.store.tables import charges
 
@@ -36,11 +36,21 @@ def read(context: Context, game_id: str) -> ClockLedger:
     )
 
 
+def enter(writing: Writing, live: LiveGame, move: int | None, charge: Charge) -> None:
+    """Write down what a turn of a game cost; `move` is the number of the move that ended it, None from outside."""
+    row = {"game_id": live.id, "seat": live.game.turn, "move": move, "created_at": writing.now}
+    parts = {"measured": charge.measured_ns, "lag": charge.lag_ns, "grace": charge.grace_ns}
+    writing.connection.execute(_ENTER, row | parts)
+
+
+_ENTER: Final = insert(charges)
+
+
 def _seat(live: LiveGame, seat: int) -> SeatLedger:
     return SeatLedger(
-        charged_ns=live.clocks.used_ns[seat],
-        lag_ns=live.granted[seat],
-        grace_ns=live.graces[seat],
+        charged_ns=live.clock.clocks.used_ns[seat],
+        lag_ns=live.clock.lag_ns[seat],
+        grace_ns=live.clock.grace_ns[seat],
         simulated=(live.row.simulated_0, live.row.simulated_1)[seat],
     )
 
