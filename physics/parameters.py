@@ -4,6 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics.constants import BALL_MASS
+from physics.errors import InvalidTable
+from physics.real_table import RealTable
 from physics.table import Table
 
 NO_SLIP, NO_SLIP_HISTORICAL = 1e-12, 1e-10
@@ -39,6 +41,10 @@ def _rest_time(table: Table) -> float:
 
 
 def _row(table: Table) -> NDArray[np.float64]:
+    if isinstance(table, RealTable):
+        raise InvalidTable(
+            "name", table.name, "must be olympiad or fastfiz: shots on tables with jaws are not simulated yet"
+        )
     radius = table.ball_radius
     half_x, half_y = 0.5 * table.width, 0.5 * table.length
     historical = table.collisions == "fastfiz"
