@@ -34,7 +34,7 @@ def gap(c, b, a, t, distance) -> float:
 
 @pytest.mark.parametrize("family", ["horn_cloth", "drop_edge"])
 def test_the_reference_contacts(family):
-    """``flight/contacts.json``: none missed, none invented, the gap at most 1e-15 m; a tangency accepts either answer."""
+    """``flight/contacts.json``: none missed, none invented, the gap at most 1e-15 m; a tangency accepts either."""
     cases = [
         c for c in json.loads(reference_data("flight/contacts.json").read_text())["cases"] if c["family"] == family
     ]
