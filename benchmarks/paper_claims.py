@@ -81,9 +81,9 @@ def prepare_counting(*_: object) -> None:
     recording = importlib.import_module("physics.kernels.recording")
     record = recording.record
 
-    def noted(w: Any, k: Any, trace: Any, time: float, *rest: Any) -> Any:
+    def noted(s: Any, time: float, *rest: Any) -> Any:
         NOTES.append((float(time), counting.COUNT[0]))
-        return record(w, k, trace, time, *rest)
+        return record(s, time, *rest)
 
     variants.replace("physics.kernels.recording", "record", noted)
     importlib.import_module("physics.kernels.entries")
@@ -157,7 +157,7 @@ def answered(problems: Problems) -> Iterator[tuple[str, float, Floats]]:
     c, b, a, t_max = problems
     distance = 2.0 * TABLE.ball_radius
     kernels()
-    ours = importlib.import_module("physics.kernels.detect.contact").contact
+    ours = quartics.of_numbers(importlib.import_module("physics.kernels.detect.contact").contact)
     loops = {"ours": ours, "textbook closed form": quartics.textbook}
     for name, solve in loops.items():
         loop = in_a_loop(solve)

@@ -106,17 +106,15 @@ def solve_to_the_end(*_: object) -> None:
     """In a new process: a contact is looked for up to the end of both motions, though something happens earlier."""
     import numba
 
-    detect = "physics.kernels.detect.contact"
-    usual = importlib.import_module(detect).contact
+    detect = importlib.import_module("physics.kernels.detect.contact")
+    usual, later, root = detect.contact, detect.LATER, detect.Root
 
     @numba.njit(error_model="numpy", nogil=True)  # type: ignore[untyped-decorator]
-    def unlimited(
-        cx: float, cy: float, bx: float, by: float, ax: float, ay: float, t_max: float, limit: float, size: float
-    ) -> float:
-        t: float = usual(cx, cy, bx, by, ax, ay, t_max, t_max, size)
-        return t if t <= limit else np.nan
+    def unlimited(path: Any, t_max: float, limit: float, diameter: float) -> Any:
+        found = usual(path, t_max, t_max, diameter)
+        return found if found.time <= limit else root(np.nan, later)
 
-    variants.replace(detect, "contact", unlimited)
+    variants.replace(detect.__name__, "contact", unlimited)
 
 
 def cross_every_line(*_: object) -> None:
@@ -127,7 +125,7 @@ def cross_every_line(*_: object) -> None:
     def always(_gap: float, _speed: float, _half: float, _lasts: float) -> bool:
         return True
 
-    variants.replace(PREDICTION, "reaches", always)
+    variants.replace("physics.kernels.detect.line", "reaches", always)
 
 
 SAVINGS: dict[str, Callable[[], None]] = {

@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 from physics.constants import BALL_RADIUS, N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
-from physics.facts import FACTS_DTYPE
+from physics.facts import FACTS_DTYPE, FACTS_WORDS
+from physics.kernels.layout import N_COUNTERS
 from physics.parameters import parameters
 from physics.shot import FIELDS
-from physics.simulation import N_COUNTERS, NO_COUNTERS, NO_TRACE, checked_positions
+from physics.simulation import NO_COUNTERS, NO_TRACE, checked_positions
 from physics.state import TableState
 from physics.table import Table
 
@@ -22,9 +23,6 @@ PARTS_PER_THREAD = 8
 """A batch is cut finer than into one part a thread: a thread that was held up leaves its parts to the others."""
 CHECKED_ROWS = 64
 """Some two milliseconds of ordinary shots."""
-
-FACTS_WORDS = FACTS_DTYPE.itemsize // 4
-"""Size of one shot's facts in 32-bit words."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -91,25 +89,19 @@ def simulate_batch(
     strokes = _checked_shots(shots)
     n = len(strokes)
     positions = _checked_states(table, states, n)
-    batch = Batch(
-        np.empty((n, N_BALLS, 2)), np.empty((n, N_BALLS), np.int8), np.empty(n, np.int8), np.empty(n, FACTS_DTYPE)
-    )
-    arguments = (
-        *(positions, strokes, batch.positions.reshape(n, 2 * N_BALLS), batch.pocket, batch.status),
-        *(
-            batch.facts.view(np.int32).reshape(n, FACTS_WORDS),
-            batch.facts.view(np.float64).reshape(n, FACTS_WORDS // 2),
-        ),
-        *(NO_TRACE, 0, NO_COUNTERS if counters is None else _checked_counters(counters, n)),
-    )
+    final, pocket = np.empty((n, N_BALLS, 2)), np.empty((n, N_BALLS), np.int8)
+    facts, counted = np.empty(n, FACTS_DTYPE), NO_COUNTERS if counters is None else _checked_counters(counters, n)
+    by_row = (strokes, final.reshape(n, 2 * N_BALLS), pocket, facts.view(np.int32).reshape(n, FACTS_WORDS))
     run, row = kernels().simulate_rows, parameters(table)
 
     def part(first: int, last: int) -> None:
         if check is not None:
             check()
+        given = positions if len(positions) == 1 else positions[first:last]
         if not isinstance(states, TableState):
-            _refuse_bad_rows(row, positions, first, last)
-        run(row, *workspace(), *arguments, first, last)
+            _refuse_bad_rows(row, given, first)
+        shots, *outputs = (array[first:last] for array in by_row)
+        run(row, workspace(), given, shots, *outputs, NO_TRACE, counted[first:last])
 
     parts = 1 if threads == 1 else PARTS_PER_THREAD * threads
     if check is not None:
@@ -119,11 +111,11 @@ def simulate_batch(
     if threads == 1 or parts < 2:
         for first, last in pairwise(edges):
             part(first, last)
-        return batch
-    with ThreadPoolExecutor(threads) as pool:
-        for _ in pool.map(part, edges[:-1], edges[1:]):  # in order: the first bad row is the one named
-            pass
-    return batch
+    else:
+        with ThreadPoolExecutor(threads) as pool:
+            for _ in pool.map(part, edges[:-1], edges[1:]):  # in order: the first bad row is the one named
+                pass
+    return Batch(final, pocket, facts["status"].astype(np.int8), facts)
 
 
 def _checked_shots(shots: ArrayLike) -> NDArray[np.float64]:
@@ -162,14 +154,15 @@ def _checked_states(table: Table, states: TableState | NDArray[np.float64], n: i
     return positions.reshape(n, 2 * N_BALLS)
 
 
-def _refuse_bad_rows(parameters: NDArray[np.float64], positions: NDArray[np.float64], first: int, last: int) -> None:
-    """Raise for the first of rows ``first`` to ``last`` - 1 whose balls are off the table or overlap."""
+def _refuse_bad_rows(parameters: NDArray[np.float64], positions: NDArray[np.float64], first: int) -> None:
+    """Raise for the first of the rows whose balls are off the table or overlap; ``first``: the number of the first."""
     least = 2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE
     find = kernels().first_bad_row
-    row, ball, other = find(parameters, positions, least * least, PLACEMENT_TOLERANCE, first, last)
+    row, ball, other = find(parameters, workspace(), positions, least * least, PLACEMENT_TOLERANCE)
     if row < 0:
         return
     allowed = "must be two finite numbers inside the cushion lines and outside the mouths"
     if other >= 0:
         allowed = f"overlaps ball {other}; centres must be at least {2.0 * BALL_RADIUS} m apart"
-    raise InvalidState(f"states[{row}][{ball}]", positions[row, 2 * ball : 2 * ball + 2].tolist(), allowed)
+    place = positions[row, 2 * ball : 2 * ball + 2].tolist()
+    raise InvalidState(f"states[{first + row}][{ball}]", place, allowed)

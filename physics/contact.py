@@ -22,7 +22,7 @@ def contact_time(c: ArrayLike, b: ArrayLike, a: ArrayLike, t_max: float, distanc
     (until,), (meet,) = _numbers("t_max", t_max, ()), _numbers("distance", distance, ())
     if until < 0.0 or meet <= 0.0:
         raise PhysicsError("t_max, distance", (until, meet), "must not be negative, and the distance not 0")
-    return float(kernels().time_of_contact(*(number for pair in path for number in pair), until, meet))
+    return float(kernels().time_of_contact(np.array([path]).reshape(1, -1), until, meet))
 
 
 def _numbers(name: str, value: ArrayLike, shape: tuple[int, ...]) -> list[float]:

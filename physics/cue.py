@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from physics.constants import BALL_RADIUS, CUSHION_NAMES, N_BALLS
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
+from physics.kernels.layout import BEHIND_CUSHION, THROUGH_CUE_BALL
 from physics.parameters import parameters
 from physics.shot import FIELDS, Shot
 from physics.simulation import checked_positions
@@ -41,7 +42,7 @@ def check(table: Table, state: TableState, shot: Shot) -> Unplayable | None:
     if not isinstance(shot, Shot):
         raise InvalidShot("shot", shot, "must be a physics.Shot")
     stroke = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b]])
-    number, obstacle = kernels().check_shot(parameters(table), *workspace(), checked_positions(table, state), stroke)
+    number, obstacle = kernels().check_shot(parameters(table), workspace(), checked_positions(table, state), stroke)
     status = Status(number)
     if status is Status.AT_REST:
         return None
@@ -68,7 +69,7 @@ def min_elevation(table: Table, state: TableState, phi: float, a: float = 0.0, b
         raise InvalidState("positions[0]", None, "there must be a cue ball on the table")
     if not table.cue_test:
         return 0.0
-    return float(kernels().elevation_needed(parameters(table), *workspace(), positions, shot.phi, shot.a, shot.b))
+    return float(kernels().elevation_needed(parameters(table), workspace(), positions, shot.phi, shot.a, shot.b))
 
 
 def min_elevations(
@@ -87,7 +88,7 @@ def min_elevations(
         return np.zeros(len(positions))
     find, row, work = kernels().elevation_needed, parameters(table), workspace()
     flat, columns = positions.reshape(-1, 1, 2 * N_BALLS), zip(phi.tolist(), a.tolist(), b.tolist(), strict=True)
-    return np.array([find(row, *work, one, *column) for one, column in zip(flat, columns, strict=True)])
+    return np.array([find(row, work, one, *column) for one, column in zip(flat, columns, strict=True)])
 
 
 def are_playable(table: Table, positions: NDArray[np.float64], shots: NDArray[np.float64]) -> NDArray[np.bool_]:
@@ -98,10 +99,12 @@ def are_playable(table: Table, positions: NDArray[np.float64], shots: NDArray[np
     """
     test, row, work = kernels().check_shot, parameters(table), workspace()
     flat, strokes = positions.reshape(-1, 1, 2 * N_BALLS), shots.reshape(-1, 1, len(FIELDS))
-    return np.array([test(row, *work, one, shot)[0] == Status.AT_REST for one, shot in zip(flat, strokes, strict=True)])
+    return np.array([test(row, work, one, shot)[0] == Status.AT_REST for one, shot in zip(flat, strokes, strict=True)])
 
 
 def _obstacle_name(number: int) -> str:
-    if number < 16:
+    if number < THROUGH_CUE_BALL:
         return f"ball {number}"
-    return "the cue ball itself" if number == 16 else f"the {CUSHION_NAMES[number - 17]} cushion"
+    if number == THROUGH_CUE_BALL:
+        return "the cue ball itself"
+    return f"the {CUSHION_NAMES[number - BEHIND_CUSHION]} cushion"

@@ -19,8 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-WORK_FLOATS, WORK_INTEGERS = 632, 216
-"""Size of the kernels' memory: W_SIZE and K_SIZE of ``physics.kernels.layout``, which a test compares."""
+from physics.kernels.layout import K_SIZE, W_SIZE
 
 _LOADING = threading.Lock()
 _THREAD = threading.local()
@@ -68,11 +67,11 @@ def _usable(place: Path) -> Path | None:
         return None
 
 
-def workspace() -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """This thread's memory for the kernels to work out one shot at a time in."""
-    memory: tuple[NDArray[np.float64], NDArray[np.int64]] | None = getattr(_THREAD, "memory", None)
+def workspace() -> NDArray[np.float64]:
+    """This thread's memory for the kernels to work out one shot at a time in, (1, n) float64."""
+    memory: NDArray[np.float64] | None = getattr(_THREAD, "memory", None)
     if memory is None:
-        memory = _THREAD.memory = np.empty((1, WORK_FLOATS)), np.empty((1, WORK_INTEGERS), np.int64)
+        memory = _THREAD.memory = np.empty((1, W_SIZE + K_SIZE))
     return memory
 
 

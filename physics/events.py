@@ -5,17 +5,22 @@ from enum import IntEnum, StrEnum
 from typing import Any
 
 from physics.constants import CUSHION_NAMES, POCKET_NAMES
+from physics.kernels import layout
 
 
 class Motion(IntEnum):
     """Motion state of a ball ([I], section 3), or why it has none."""
 
-    STATIONARY = 0
-    SPINNING = 1
-    SLIDING = 2
-    ROLLING = 3
-    POCKETED = 4
-    ABSENT = 5
+    STATIONARY = layout.STATIONARY
+    SPINNING = layout.SPINNING
+    SLIDING = layout.SLIDING
+    ROLLING = layout.ROLLING
+    POCKETED = layout.POCKETED
+    ABSENT = layout.ABSENT
+
+
+OFF_TABLE = (Motion.POCKETED, Motion.ABSENT)
+"""Motion states of balls that are not in play."""
 
 
 class EventKind(StrEnum):
@@ -35,7 +40,7 @@ class EventKind(StrEnum):
     """A touching ball was parted or brought to rest by the contact rule; see docs/physics.md."""
 
 
-KINDS: tuple[EventKind, ...] = tuple(EventKind)
+KINDS: tuple[EventKind, ...] = tuple(sorted(EventKind, key=lambda kind: getattr(layout, kind.name)))
 """Kernels write a kind as its place in this tuple."""
 
 

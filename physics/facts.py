@@ -11,32 +11,22 @@ from typing import Any, Final, Self
 import numpy as np
 
 from physics.constants import N_BALLS
+from physics.kernels import layout
 
 NEVER: Final = -1
 """The ordinal of an event that did not happen."""
 
 FACTS_DTYPE: Final = np.dtype(
     [
-        ("status", np.int32),
-        ("n_events", np.int32),
-        ("crossed_head_string", np.int32),
-        ("crossed_before_contact", np.int32),
-        ("first_contact", np.int32, (N_BALLS,)),
-        ("cushion", np.int32, (N_BALLS,)),
-        ("cushion_after_contact", np.int32, (N_BALLS,)),
-        ("pocketed", np.int32, (N_BALLS,)),
-        ("pocket", np.int32, (N_BALLS,)),
-        ("off_table", np.int32, (N_BALLS,)),
-        ("frozen_to_cushion", np.int32, (N_BALLS,)),
-        ("frozen_to_cue_ball", np.int32, (N_BALLS,)),
-        ("duration", np.float64),
-        ("first_contact_cue_ball", np.float64, (2,)),
+        (name, kind) if size == 1 else (name, kind, (size,))
+        for kind, fields in ((np.int32, layout.INTEGER_FACTS), (np.float64, layout.FLOAT_FACTS))
+        for name, size in fields.items()
     ]
 )
-"""One shot's facts: 132 int32, then 3 float64. The kernel writes the two blocks by position."""
+"""One shot's facts. The kernel writes the int32 and the float64 by position (``physics.kernels.layout``)."""
 
-N_INTEGERS: Final = 132
-N_FLOATS: Final = 3
+FACTS_WORDS: Final = layout.FACTS_WIDTH
+"""Size of one shot's facts in 32-bit words."""
 
 PerBall = tuple[int, ...]
 _NOBODY: PerBall = (NEVER,) * N_BALLS

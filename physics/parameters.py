@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from physics.constants import BALL_MASS
 from physics.errors import InvalidTable
+from physics.kernels import layout as at
 from physics.real_table import RealTable
 from physics.table import Table
 
@@ -29,7 +30,7 @@ HISTORICAL_INERTIA = 0.4 * 0.160 * 0.995473 / BALL_MASS
 
 
 def parameters(table: Table) -> NDArray[np.float64]:
-    """(1, P_SIZE) float64, read-only; the order is that of ``physics.kernels.layout``."""
+    """(1, P_SIZE) float64, read-only; places: ``physics.kernels.layout``."""
     known = table.__dict__.get(_KEPT_AS)  # a cache keyed by the table would hash its 20 numbers at every shot
     if known is None:
         known = table.__dict__[_KEPT_AS] = _row(table)
@@ -49,27 +50,40 @@ def _row(table: Table) -> NDArray[np.float64]:
     half_x, half_y = 0.5 * table.width, 0.5 * table.length
     historical = table.collisions == "fastfiz"
     spin = 5.0 * table.mu_spin * table.gravity / (2.0 * radius)
-    row = np.array(
-        [
-            *(half_x, half_y, half_x - radius, half_y - radius),
-            half_x + half_y - table.corner_reach - radius,
-            0.5 * table.side_mouth,
-            radius,
-            table.head_string - half_y,
-            *(table.mu_slide * table.gravity, table.mu_roll * table.gravity, spin),
-            0.25 * spin if historical else spin,
-            *(table.mu_ball, table.e_ball),
-            *(table.cushion_parallel, table.cushion_perpendicular, table.cushion_spin),
-            table.ball_mass / table.cue_mass,
-            1.0 if historical else 0.0,
-            *(1.0 if table.cue_test else 0.0, table.cue_length, table.nose_height),
-            *(table.v_max, table.theta_max),
-            NO_SLIP_HISTORICAL if historical else NO_SLIP,
-            *((HISTORICAL_BRACKET, HISTORICAL_INERTIA) if historical else (1.0, 0.4)),
-            1.0 / radius,
-            *(2.0 / (7.0 * table.mu_slide * table.gravity), 1.0 / (table.mu_roll * table.gravity), 1.0 / spin),
-            REST_TIME_HISTORICAL if historical else _rest_time(table),
-        ]
-    )
+    values = {
+        at.P_HALF_X: half_x,
+        at.P_HALF_Y: half_y,
+        at.P_LINE_X: half_x - radius,
+        at.P_LINE_Y: half_y - radius,
+        at.P_CORNER: half_x + half_y - table.corner_reach - radius,
+        at.P_SIDE: 0.5 * table.side_mouth,
+        at.P_RADIUS: radius,
+        at.P_HEAD: table.head_string - half_y,
+        at.P_SLIDE: table.mu_slide * table.gravity,
+        at.P_ROLL: table.mu_roll * table.gravity,
+        at.P_SPIN: spin,
+        at.P_SPIN_SLIDING: 0.25 * spin if historical else spin,
+        at.P_MU_BALL: table.mu_ball,
+        at.P_E_BALL: table.e_ball,
+        at.P_PARALLEL: table.cushion_parallel,
+        at.P_PERPENDICULAR: table.cushion_perpendicular,
+        at.P_KEEP_SPIN: table.cushion_spin,
+        at.P_MASS_RATIO: table.ball_mass / table.cue_mass,
+        at.P_HISTORICAL: float(historical),
+        at.P_CUE_TEST: float(table.cue_test),
+        at.P_CUE_LENGTH: table.cue_length,
+        at.P_NOSE: table.nose_height,
+        at.P_V_MAX: table.v_max,
+        at.P_THETA_MAX: table.theta_max,
+        at.P_NO_SLIP: NO_SLIP_HISTORICAL if historical else NO_SLIP,
+        at.P_BRACKET: HISTORICAL_BRACKET if historical else 1.0,
+        at.P_INERTIA: HISTORICAL_INERTIA if historical else 0.4,
+        at.P_PER_RADIUS: 1.0 / radius,
+        at.P_SLIDE_LASTS: 2.0 / (7.0 * table.mu_slide * table.gravity),
+        at.P_ROLL_LASTS: 1.0 / (table.mu_roll * table.gravity),
+        at.P_SPIN_LASTS: 1.0 / spin,
+        at.P_REST_TIME: REST_TIME_HISTORICAL if historical else _rest_time(table),
+    }
+    row = np.array([[values[place] for place in range(at.P_SIZE)]])
     row.flags.writeable = False
-    return row.reshape(1, -1)
+    return row

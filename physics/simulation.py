@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from physics.constants import N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
-from physics.facts import FACTS_DTYPE, Facts
+from physics.facts import FACTS_DTYPE, FACTS_WORDS, Facts
+from physics.kernels.layout import F_EVENTS, N_COUNTERS, SHOT_WIDTH, STATE_WIDTH, TRACE_WIDTH
 from physics.parameters import parameters
 from physics.shot import Shot
 from physics.state import TableState
@@ -21,14 +22,10 @@ from physics.trajectory import Events, Snapshot, resting_states
 TRACE_ROWS = 192
 """Events a trace has room for at first; a shot with more is simulated again with room for all."""
 
-TRACE_WIDTH = 20
-"""Numbers in a row of the trace: see physics.kernels.layout."""
-
 Floats = NDArray[np.float64]
 
-NO_SHOT: Floats = np.zeros((1, 5))
+NO_SHOT: Floats = np.zeros((1, SHOT_WIDTH))
 NO_TRACE: Floats = np.zeros((1, 0))
-N_COUNTERS = 4
 NO_COUNTERS: NDArray[np.int64] = np.zeros((0, N_COUNTERS), np.int64)
 
 
@@ -47,7 +44,7 @@ class Result:
         table: Table,
         start: Floats,
         final: Floats,
-        facts: Floats,
+        facts: NDArray[np.int32],
         trace: Floats | None,
         n_events: int,
     ) -> None:
@@ -96,10 +93,10 @@ class Result:
         if not 0.0 <= t <= self.duration:
             raise ValueError(f"t = {t!r}: must be in [0, {self.duration}] s, the duration of the shot")
         rows = self._rows()
-        out = np.empty((1, N_BALLS * 8))
+        out = np.empty((1, N_BALLS * STATE_WIDTH))
         start = resting_states(self._start.reshape(N_BALLS, 2)) if self._start.size == 2 * N_BALLS else self._start
-        kernels().state_at(parameters(self.table), *workspace(), start, rows.reshape(1, -1), len(rows), float(t), out)
-        return Snapshot.from_states(self.table, t, out.reshape(N_BALLS, 8))
+        kernels().state_at(parameters(self.table), workspace(), start, rows.reshape(1, -1), float(t), out)
+        return Snapshot.from_states(self.table, t, out.reshape(N_BALLS, STATE_WIDTH))
 
     def sample(self, dt: float) -> Iterator[Snapshot]:
         """Snapshots every ``dt`` seconds, the first at 0 and the last at the end.
@@ -140,7 +137,7 @@ def simulate(table: Table, state: TableState, shot: Shot, trace: bool = True) ->
     """
     if not isinstance(shot, Shot):
         raise InvalidShot("shot", shot, "must be a physics.Shot")
-    stroke = np.array((shot.v, shot.phi, shot.theta, shot.a, shot.b)).reshape(1, 5)
+    stroke = np.array((shot.v, shot.phi, shot.theta, shot.a, shot.b)).reshape(1, SHOT_WIDTH)
     return _run(table, checked_positions(table, state), stroke, trace)
 
 
@@ -158,17 +155,17 @@ def resume(table: Table, snapshot: Snapshot, trace: bool = True) -> Result:
 
 def _run(table: Table, states: Floats, stroke: Floats, trace: bool) -> Result:
     """One row through the kernel; a trace that turns out too short is written again, with room for all."""
-    final, facts = np.empty((1, 2 * N_BALLS)), np.empty((1, FACTS_DTYPE.itemsize // 8))
-    integers = facts.view(np.int32)
-    outputs = final, np.empty((1, N_BALLS), np.int8), np.empty(1, np.int8), integers, facts
+    final, facts = np.empty((1, 2 * N_BALLS)), np.empty((1, FACTS_WORDS), np.int32)
+    outputs = final, np.empty((1, N_BALLS), np.int8), facts
     entry, row, work = kernels().simulate_rows, parameters(table), workspace()
     rows = TRACE_ROWS if trace else 0
-    events = np.empty((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
-    entry(row, *work, states, stroke, *outputs, events, rows, NO_COUNTERS, 0, 1)
-    n_events = int(integers[0, 1])
+    # zeros: kernels leave the columns of no second ball alone
+    events = np.zeros((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
+    entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
+    n_events = int(facts[0, F_EVENTS])
     if trace and n_events > rows:
-        events = np.empty((1, n_events * TRACE_WIDTH))
-        entry(row, *work, states, stroke, *outputs, events, n_events, NO_COUNTERS, 0, 1)
+        events = np.zeros((1, n_events * TRACE_WIDTH))
+        entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
     kept = events.reshape(-1, TRACE_WIDTH)[:n_events] if trace else None
     return Result(table, states, final, facts, kept, n_events)
 
@@ -179,6 +176,6 @@ def checked_positions(table: Table, state: TableState) -> Floats:
         raise InvalidState("state", state, "must be a physics.TableState")
     flat = state.positions.reshape(1, -1)
     if not state.is_known_on(table):
-        bad = kernels().first_bad_row(parameters(table), flat, 0.0, PLACEMENT_TOLERANCE, 0, 1)[0] >= 0
+        bad = kernels().first_bad_row(parameters(table), workspace(), flat, 0.0, PLACEMENT_TOLERANCE)[0] >= 0
         state.valid_on(table, known=not bad)  # which has the words
     return flat

@@ -2,6 +2,8 @@
 
 from enum import IntEnum
 
+from physics.kernels import layout
+
 
 class Status(IntEnum):
     """How a shot ended. The first is the regular end; the rest say why there was no shot or no end.
@@ -9,12 +11,12 @@ class Status(IntEnum):
     Kernels write these numbers; ``explain`` puts them in words.
     """
 
-    AT_REST = 0
-    CUE_OBSTRUCTED = 1
-    TIP_OFF_BALL = 2
-    OUT_OF_RANGE = 3
-    NO_CUE_BALL = 4
-    EVENT_LIMIT = 5
+    AT_REST = layout.AT_REST
+    CUE_OBSTRUCTED = layout.CUE_OBSTRUCTED
+    TIP_OFF_BALL = layout.TIP_OFF_BALL
+    OUT_OF_RANGE = layout.OUT_OF_RANGE
+    NO_CUE_BALL = layout.NO_CUE_BALL
+    EVENT_LIMIT = layout.EVENT_LIMIT
 
     @property
     def played(self) -> bool:

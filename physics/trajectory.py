@@ -9,11 +9,15 @@ from numpy.typing import NDArray
 
 from physics.constants import N_BALLS
 from physics.errors import InvalidState
-from physics.events import KINDS, BallState, Event, EventKind, Motion
+from physics.events import KINDS, OFF_TABLE, BallState, Event, EventKind, Motion
+from physics.kernels import layout as at
 from physics.state import TableState
 from physics.table import Table
 
 Floats = NDArray[np.float64]
+
+PLACE, VELOCITY, SPIN = slice(at.A_X, at.A_VX), slice(at.A_VX, at.A_WX), slice(at.A_WX, at.A_MOTION)
+"""Columns of a ball's state."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -35,12 +39,12 @@ class Snapshot:
 
     @classmethod
     def from_states(cls, table: Table, time: float, states: Floats) -> Self:
-        """From (16, 8) rows x y vx vy wx wy wz motion, positions from the table's centre."""
-        motion = states[:, 7].astype(np.int8)
-        away = motion >= Motion.POCKETED
-        positions = states[:, :2] + (0.5 * table.width, 0.5 * table.length)
+        """From (16, STATE_WIDTH) rows x y vx vy wx wy wz motion, positions from the table's centre."""
+        motion = states[:, at.A_MOTION].astype(np.int8)
+        away = np.isin(motion, OFF_TABLE)
+        positions = states[:, PLACE] + (0.5 * table.width, 0.5 * table.length)
         positions[away] = np.nan
-        return cls(time, positions, states[:, 2:4].copy(), states[:, 4:7].copy(), motion)
+        return cls(time, positions, states[:, VELOCITY].copy(), states[:, SPIN].copy(), motion)
 
     def refuse_impossible(self, table: Table) -> None:
         """Raise InvalidState unless this can be an instant of a shot on ``table``.
@@ -54,7 +58,7 @@ class Snapshot:
         for ball, number in enumerate(self.motion.tolist()):
             if number not in iter(Motion):
                 raise InvalidState(f"motion[{ball}]", number, f"must be one of {[int(motion) for motion in Motion]}")
-        here = np.flatnonzero(self.motion < Motion.POCKETED).tolist()
+        here = np.flatnonzero(~np.isin(self.motion, OFF_TABLE)).tolist()
         TableState.from_positions({ball: self.positions[ball] for ball in here})
         for ball in here:
             if not table.in_play(*self.positions[ball].tolist()):
@@ -74,11 +78,11 @@ class Snapshot:
 
     def to_states(self) -> Floats:
         """(1, 128): the kernels' rows, positions in the table's frame."""
-        states = np.zeros((N_BALLS, 8))
-        states[:, :2] = np.nan_to_num(self.positions)
-        states[:, 2:4] = self.velocities
-        states[:, 4:7] = self.spins
-        states[:, 7] = self.motion
+        states = np.zeros((N_BALLS, at.STATE_WIDTH))
+        states[:, PLACE] = np.nan_to_num(self.positions)
+        states[:, VELOCITY] = self.velocities
+        states[:, SPIN] = self.spins
+        states[:, at.A_MOTION] = self.motion
         return states.reshape(1, -1)
 
 
@@ -106,11 +110,11 @@ class Events(Sequence[Event]):
 
     def _event(self, place: int) -> Event:
         row = self._rows[place].tolist()
-        kind, ball, other = KINDS[int(row[1])], int(row[2]), int(row[3])
-        states: tuple[BallState, ...] = (self._state(ball, row[4:12]),)
+        kind, ball, other = KINDS[int(row[at.T_KIND])], int(row[at.T_BALL]), int(row[at.T_OTHER])
+        states: tuple[BallState, ...] = (self._state(ball, row[at.T_FIRST : at.T_SECOND]),)
         if kind is EventKind.BALL_COLLISION:
-            states = (*states, self._state(other, row[12:20]))
-        return Event(place, row[0], kind, ball, other, states)
+            states = (*states, self._state(other, row[at.T_SECOND : at.TRACE_WIDTH]))
+        return Event(place, row[at.T_TIME], kind, ball, other, states)
 
     def _state(self, ball: int, values: list[float]) -> BallState:
         x, y, vx, vy, wx, wy, wz, motion = values
@@ -120,8 +124,8 @@ class Events(Sequence[Event]):
 
 def resting_states(positions: Floats) -> Floats:
     """(1, 128) rows of balls at rest at ``positions`` (16, 2), in the table's frame."""
-    states = np.zeros((N_BALLS, 8))
+    states = np.zeros((N_BALLS, at.STATE_WIDTH))
     absent = np.isnan(positions[:, 0])
-    states[:, :2] = np.where(absent[:, None], 0.0, positions)
-    states[:, 7] = np.where(absent, Motion.ABSENT, Motion.STATIONARY)
+    states[:, PLACE] = np.where(absent[:, None], 0.0, positions)
+    states[:, at.A_MOTION] = np.where(absent, Motion.ABSENT, Motion.STATIONARY)
     return states.reshape(1, -1)

@@ -118,15 +118,29 @@ def in_the_engine(solve: Any, usual: Any) -> Any:
     touch to 1e-12 m, and with a root that is off by more it would look at the same instant for ever.
     """
 
+    from physics.kernels.detect.contact import LATER, MEETS, Root
+
     @compiled
-    def contact(cx, cy, bx, by, ax, ay, t_max, limit, distance):
+    def contact(path, t_max, limit, distance):
+        cx, cy, bx, by, ax, ay = path
         near = distance + 1e-12
         if cx * cx + cy * cy <= near * near:
-            return usual(cx, cy, bx, by, ax, ay, t_max, limit, distance)
+            return usual(path, t_max, limit, distance)
         t = polished(solve(cx, cy, bx, by, ax, ay, t_max, limit, distance), cx, cy, bx, by, ax, ay, distance)
-        return t if t <= limit else math.nan
+        return Root(t, MEETS) if t <= limit else Root(math.nan, LATER)
 
     return contact
+
+
+def of_numbers(usual: Any) -> Any:
+    """The engine's own solver, ``usual``, as the others are called."""
+    from physics.kernels.path import Path
+
+    @compiled
+    def solve(cx, cy, bx, by, ax, ay, t_max, limit, distance):
+        return usual(Path(cx, cy, bx, by, ax, ay), t_max, limit, distance).time
+
+    return solve
 
 
 @compiled

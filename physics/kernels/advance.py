@@ -1,36 +1,13 @@
 """Move a ball along its closed-form path ([I], eq. 4-14; docs/physics.md, eq. 5-9)."""
 
+from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store
-from physics.kernels.layout import (
-    HX,
-    HY,
-    MOTION,
-    P_PER_RADIUS,
-    P_SPIN,
-    P_SPIN_SLIDING,
-    ROLLING,
-    SINCE,
-    SLIDING,
-    SPINNING,
-    VX,
-    VY,
-    WX,
-    WY,
-    WZ,
-    X,
-    Y,
-)
-
-
-@small_kernel
-def along(start, speed, half, dt):
-    """Coordinate after ``dt``: start + speed dt + half dt^2."""
-    return start + dt * (speed + dt * half)
+from physics.kernels.path import along
 
 
 @small_kernel
 def decayed(spin, rate, dt):
-    """Spin about the vertical after ``dt``: it falls at ``rate`` and stops at 0."""
+    """Spin about the vertical after ``dt``: it falls at ``rate`` and stops at 0 (eq. 9)."""
     loss = rate * dt
     if spin > loss:
         return spin - loss
@@ -40,30 +17,32 @@ def decayed(spin, rate, dt):
 
 
 @kernel
-def advance(p, w, k, i, time):
+def advance(s, i, time):
     """Move the anchor of ball ``i`` to ``time``: position, velocity and spin there."""
-    dt = time - load(w, SINCE + i)
-    store(w, SINCE + i, time)
-    motion = load_integer(k, MOTION + i)
-    if dt == 0.0 or motion == 0:
+    dt = time - load(s.w, at.SINCE + i)
+    store(s.w, at.SINCE + i, time)
+    motion = load_integer(s.k, at.MOTION + i)
+    if dt == 0.0 or motion == at.STATIONARY:
         return
-    if motion == SPINNING:
-        store(w, WZ + i, decayed(load(w, WZ + i), load(p, P_SPIN), dt))
+    if motion == at.SPINNING:
+        store(s.w, at.WZ + i, decayed(load(s.w, at.WZ + i), load(s.p, at.P_SPIN), dt))
         return
-    vx, vy, hx, hy = load(w, VX + i), load(w, VY + i), load(w, HX + i), load(w, HY + i)
-    per_radius = load(p, P_PER_RADIUS)
-    store(w, X + i, along(load(w, X + i), vx, hx, dt))
-    store(w, Y + i, along(load(w, Y + i), vy, hy, dt))
+    vx, vy, hx, hy = load(s.w, at.VX + i), load(s.w, at.VY + i), load(s.w, at.HX + i), load(s.w, at.HY + i)
+    per_radius = load(s.p, at.P_PER_RADIUS)
+    store(s.w, at.X + i, along(load(s.w, at.X + i), vx, hx, dt))
+    store(s.w, at.Y + i, along(load(s.w, at.Y + i), vy, hy, dt))
     vx = vx + 2.0 * hx * dt
     vy = vy + 2.0 * hy * dt
-    store(w, VX + i, vx)
-    store(w, VY + i, vy)
-    if motion == SLIDING:
+    store(s.w, at.VX + i, vx)
+    store(s.w, at.VY + i, vy)
+    if motion == at.SLIDING:
+        # Friction F = 2 m h at the lowest point -R k: I w' = -R k x F with I = 2/5 m R^2, so w' = 5/R (h_y, -h_x).
         turn = 5.0 * dt * per_radius
-        store(w, WX + i, load(w, WX + i) + turn * hy)
-        store(w, WY + i, load(w, WY + i) - turn * hx)
-        store(w, WZ + i, decayed(load(w, WZ + i), load(p, P_SPIN_SLIDING), dt))
-    elif motion == ROLLING:
-        store(w, WX + i, -vy * per_radius)
-        store(w, WY + i, vx * per_radius)
-        store(w, WZ + i, decayed(load(w, WZ + i), load(p, P_SPIN), dt))
+        store(s.w, at.WX + i, load(s.w, at.WX + i) + turn * hy)
+        store(s.w, at.WY + i, load(s.w, at.WY + i) - turn * hx)
+        store(s.w, at.WZ + i, decayed(load(s.w, at.WZ + i), load(s.p, at.P_SPIN_SLIDING), dt))
+    elif motion == at.ROLLING:
+        # No slip: v = R w x k, so w = k x v / R (eq. 8).
+        store(s.w, at.WX + i, -vy * per_radius)
+        store(s.w, at.WY + i, vx * per_radius)
+        store(s.w, at.WZ + i, decayed(load(s.w, at.WZ + i), load(s.p, at.P_SPIN), dt))

@@ -5,13 +5,15 @@ index wrap-around in the innermost functions); interpreted (``NUMBA_DISABLE_JIT=
 The helpers below are the only difference between the two.
 
 Reproducible bits need ``fastmath`` off and no fused multiply-add, which is numba's default; and in kernels no
-``**``, ``hypot``, ``pow``, ``numpy.sum`` or ``numpy.linalg``, whose bits differ from machine to machine.
+``**``, ``hypot``, ``pow``, ``numpy.sum`` or ``numpy.linalg``, whose bits differ from machine to machine
+(``tests/physics/test_kernel_language.py`` reads the kernels for them).
 """
 
 from collections.abc import Callable
 from typing import Any
 
 import numba
+import numpy as np
 from llvmlite import ir
 from numba.core import types
 from numba.extending import intrinsic
@@ -19,10 +21,18 @@ from numba.extending import intrinsic
 INTERPRETED: bool = bool(numba.config.DISABLE_JIT)
 """Whether kernels run as plain Python."""
 
-kernel = numba.njit(error_model="numpy", nogil=True)
+INNER: dict[str, Any] = {
+    "error_model": "numpy",
+    "nogil": True,
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+}
+"""Only kernels call inner kernels: wrappers for other callers would be a third of the time to compile them."""
+
+kernel = numba.njit(**INNER)
 """Decorator of an inner kernel: compiled into the entry points that use it."""
 
-small_kernel = numba.njit(error_model="numpy", nogil=True, forceinline=True)
+small_kernel = numba.njit(forceinline=True, **INNER)
 """Decorator of a kernel of a few operations: always inlined."""
 
 
@@ -78,6 +88,14 @@ def _plain(_typing: Any, _number: Any) -> Any:
     return types.int64(types.int64), code
 
 
+def _integers_view(memory: Any, floats: int) -> Any:
+    return memory[floats:].view(np.int64)
+
+
+def _integers_address(memory: int, floats: int) -> int:
+    return memory + 8 * floats
+
+
 def _row_view(array: Any, index: int) -> Any:
     return array[index]
 
@@ -98,10 +116,19 @@ def _plain_store(memory: Any, index: int, value: Any) -> None:
     memory[index] = value
 
 
+def _plain_store_fact_number(facts: Any, index: int, value: float) -> None:
+    facts.view(np.float64)[index] = value
+
+
 _double, _int32, _int64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
 
 row: Callable[[Any, int], Any] = _row_view if INTERPRETED else numba.njit(nogil=True)(_row_address)
 """``row(array, index)``: memory of one row of a C-contiguous array (n, m)."""
+
+integers_behind: Callable[[Any, int], Any] = (
+    _integers_view if INTERPRETED else numba.njit(nogil=True)(_integers_address)
+)
+"""``integers_behind(memory, floats)``: the int64 memory behind so many float64."""
 
 plain: Callable[[int], int] = _itself if INTERPRETED else _plain
 """``plain(number)``: a constant passed on as any number. numba compiles a function anew for each constant it is called
@@ -123,4 +150,7 @@ store_integer: Callable[[Any, int, int], None] = _plain_store if INTERPRETED els
 """``store_integer(memory, index, value)``: an int64."""
 
 store_fact: Callable[[Any, int, int], None] = _plain_store if INTERPRETED else _storer(_int32, types.int64)
-"""``store_fact(memory, index, value)``: an int32."""
+"""``store_fact(facts, index, value)``: an int32."""
+
+store_fact_number: Callable[[Any, int, float], None] = _plain_store_fact_number if INTERPRETED else store
+"""``store_fact_number(facts, index, value)``: a float64 behind the int32, ``index`` counting float64."""

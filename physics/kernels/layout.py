@@ -1,87 +1,181 @@
-"""Where things lie in the flat memory of a shot.
+"""Where things lie in the flat memory of a shot. No number of a column, a kind or a state stands anywhere else.
 
-``w`` is float64 memory, ``k`` int64 memory, ``p`` the table's parameters. Per-ball quantities are rows of 16
-lanes: quantity Q of ball i is ``w[Q + i]``. Coordinates are from the table's centre, so that mirror images and
-half turns have the same bits. A ball's path since its own ``SINCE`` is r = X + V dt + H dt^2: H is half the
-acceleration.
+Kernels say ``from physics.kernels import layout as at`` and ``load(s.w, at.VX + i)``: ``w`` is float64 memory, ``k``
+int64 memory, ``p`` the table's parameters (``physics.kernels.workspace``). Per-ball quantities are rows of 16 lanes:
+quantity Q of ball i is ``w[Q + i]``. Coordinates are from the table's centre, so that mirror images and half turns
+have the same bits. A ball's path since its own ``SINCE`` is r = X + V dt + H dt^2: H is half the acceleration.
+
+Plain numbers: importing this module loads no compiler.
 """
 
 LANES = 16
+"""Balls, and lanes of a row."""
+
+MOST_PAIRS = LANES * (LANES - 1) // 2
 
 # --- float64, one row of lanes each -----------------------------------------------------------------
-X, Y = 0, 16  # m
-VX, VY, WX, WY, WZ = 32, 48, 64, 80, 96  # m/s, rad/s
-HX, HY = 112, 128  # m/s^2
-SINCE = 144  # s: time of the anchor
-END = 160  # s: time of the ball's own next motion transition
-NEXT = 176  # s: time of the ball's next event
-CHANGE = 160  # the changes of a round of the contact rule lie this far behind VX ... WZ
-CLOSING = 272  # m/s, one per touching pair: approach, then the normal change of velocity; 0 if it does not act
-NORMAL_X, NORMAL_Y = CLOSING + 120, CLOSING + 240  # one per touching pair: unit vector from the lower ball
-W_SIZE = NORMAL_Y + 120
+(
+    X,  # m
+    Y,
+    VX,  # m/s, rad/s
+    VY,
+    WX,
+    WY,
+    WZ,
+    HX,  # m/s^2
+    HY,
+    SINCE,  # s: time of the anchor
+    END,  # s: time of the ball's own next motion transition
+    NEXT,  # s: time of the ball's next event
+    VX_CHANGE,  # of a round of the contact rule
+    VY_CHANGE,
+    WX_CHANGE,
+    WY_CHANGE,
+    WZ_CHANGE,
+    CLOSING,
+) = range(0, 18 * LANES, LANES)
+SPEEDS = (VX, VY, WX, WY, WZ)
+CHANGE = VX_CHANGE - VX
+"""How far the changes of a round of the contact rule lie behind what they change."""
+
+# --- float64, one a touching pair --------------------------------------------------------------------
+# CLOSING, m/s: approach, then the normal change of velocity; 0 if the pair does not act
+NORMAL_X, NORMAL_Y = CLOSING + MOST_PAIRS, CLOSING + 2 * MOST_PAIRS  # unit vector from the lower ball to the higher
+W_SIZE = NORMAL_Y + MOST_PAIRS
 
 # --- int64, one row of lanes each --------------------------------------------------------------------
-MOTION = 0  # motion state, see below
-KIND = 16  # kind of the next event
-PARTNER = 32  # ball, cushion or pocket of the next event
-FROZEN = 48  # for a ball in FROZEN_BALLS: the cushion
-LINKS = 64  # scratch of the contact rule: active pairs at each ball
+(
+    MOTION,  # motion state, see below
+    KIND,  # kind of the next event
+    PARTNER,  # ball, cushion or pocket of the next event
+    FROZEN,  # for a ball in FROZEN_BALLS: the cushion
+    LINKS,  # scratch of the contact rule: active pairs at each ball
+    SCALARS,
+) = range(0, 6 * LANES, LANES)
 
-# --- int64 scalars -----------------------------------------------------------------------------------
-N_EVENTS = 80
-TRACE_ROWS = 81  # capacity of the trace
-CONTACT_SEEN = 82  # whether the cue ball has struck a ball
-CROSSED = 83  # whether the cue ball has crossed the head string
-STRETCH = 84  # event that opened the cue ball's present stretch
-CUSHION_SEEN, CUSHION_AFTER_SEEN = 85, 86  # bit sets of balls
-N_PAIRS = 87  # touching pairs of the cluster
-FROZEN_BALLS = 92  # bit set of the balls that have touched a cushion since the start without leaving it
-LOOKS, PAIRS_LEFT, SOLVES, CUSHION_LOOKS = 88, 89, 90, 91  # counters of work
-PAIRS = 96  # touching pairs of a cluster: first ball * 16 + second ball
-K_SIZE = PAIRS + 120
+# --- int64 scalars, all 0 when a shot starts -----------------------------------------------------------
+(
+    N_EVENTS,  # so far
+    TRACE_ROWS,  # capacity of the trace
+    EVENTS_ALLOWED,  # events after which the shot ends
+    ENDED,  # why the event loop stopped, see below
+    CONTACT_SEEN,  # whether the cue ball has struck a ball
+    CROSSED,  # whether the cue ball has crossed the head string
+    STRETCH,  # event that opened the cue ball's present stretch
+    CUSHION_SEEN,  # bit sets of balls
+    CUSHION_AFTER_SEEN,
+    FROZEN_BALLS,  # bit set of the balls that have touched a cushion since the start without leaving it
+    N_PAIRS,  # touching pairs of the cluster
+    LOOKS,  # counters of work
+    PAIRS_LEFT,
+    SOLVES,
+    CUSHION_LOOKS,
+    PAIRS,  # touching pairs of a cluster: first ball * 16 + second ball
+) = range(SCALARS, SCALARS + 16)
+N_COUNTERS = CUSHION_LOOKS - LOOKS + 1
+K_SIZE = PAIRS + MOST_PAIRS
 
 # --- motion states (physics.events.Motion) -----------------------------------------------------------
-STATIONARY, SPINNING, SLIDING, ROLLING, POCKETED, ABSENT = 0, 1, 2, 3, 4, 5
+STATIONARY, SPINNING, SLIDING, ROLLING, POCKETED, ABSENT = range(6)
 
-# --- kinds of a ball's next event --------------------------------------------------------------------
-NOTHING, MEET_BALL, MEET_CUSHION, MEET_POCKET, TRANSITION, LOOK_AGAIN = 0, 1, 2, 3, 4, 5
+# --- kinds of a ball's next event; of simultaneous ones the lower comes first --------------------------
+NOTHING, MEET_BALL, MEET_CUSHION, MEET_POCKET, TRANSITION, LOOK_AGAIN = range(6)
 
-# --- kinds in the trace: places in physics.events.KINDS ------------------------------------------------
-CUE_STRIKE, BALL_COLLISION, RAIL_COLLISION, POCKET_COLLISION = 0, 1, 2, 3
+# --- kinds in the trace (physics.events.KINDS) ----------------------------------------------------------
+CUE_STRIKE, BALL_COLLISION, RAIL_COLLISION, POCKET_COLLISION = range(4)
 SLIDING_ROLLING, SLIDING_SPINNING, SLIDING_STATIONARY = 4, 5, 6
 ROLLING_SPINNING, ROLLING_STATIONARY, SPINNING_STATIONARY, CONTACT = 7, 8, 9, 10
 
-# --- a row of the trace ------------------------------------------------------------------------------
-T_TIME, T_KIND, T_BALL, T_OTHER, T_FIRST, T_SECOND = 0, 1, 2, 3, 4, 12
-TRACE_WIDTH = 20
-STATE_WIDTH = 8  # x y vx vy wx wy wz motion
+# --- statuses (physics.status.Status) -------------------------------------------------------------------
+AT_REST, CUE_OBSTRUCTED, TIP_OFF_BALL, OUT_OF_RANGE, NO_CUE_BALL, EVENT_LIMIT = range(6)
 
-# --- facts: places in FACTS_DTYPE, as int32 and as float64 ------------------------------------------------
-F_STATUS, F_EVENTS, F_CROSSED, F_CROSSED_BEFORE = 0, 1, 2, 3
-F_FIRST, F_CUSHION, F_CUSHION_AFTER = 4, 20, 36
-F_POCKETED, F_POCKET, F_OFF_TABLE = 52, 68, 84
-F_FROZEN_CUSHION, F_FROZEN_CUE = 100, 116
-F_INTEGERS = 132
-F_DURATION, F_CUE_X, F_CUE_Y = 66, 67, 68
+# --- why the event loop stopped: all but the first are EVENT_LIMIT to the outside ------------------------
+NOTHING_TO_COME, OUT_OF_EVENTS, OUT_OF_STEPS, OUT_OF_ROUNDS = range(4)
 
-# --- parameters of the table -------------------------------------------------------------------------
-P_HALF_X, P_HALF_Y = 0, 1  # m: half width and half length, nose to nose
-P_LINE_X, P_LINE_Y = 2, 3  # m: cushion lines of the ball's centre, moved inward by R
-P_CORNER = 4  # m: |x| + |y| on the corner mouth lines
-P_SIDE = 5  # m: half the side mouth
-P_RADIUS = 6  # m
-P_HEAD = 7  # m: head string, from the centre
-P_SLIDE, P_ROLL, P_SPIN = 8, 9, 10  # m/s^2, m/s^2, rad/s^2: decelerations mu_s g, mu_r g, 5 mu_sp g / 2R
-P_SPIN_SLIDING = 11  # rad/s^2: decay of w_z while sliding
-P_MU_BALL, P_E_BALL = 12, 13
-P_PARALLEL, P_PERPENDICULAR, P_KEEP_SPIN = 14, 15, 16
-P_MASS_RATIO = 17  # ball mass / cue mass
-P_HISTORICAL = 18  # 1.0 for the historical collision formulas
-P_CUE_TEST, P_CUE_LENGTH, P_NOSE = 19, 20, 21
-P_V_MAX, P_THETA_MAX = 22, 23
-P_NO_SLIP = 24  # m/s
-P_BRACKET, P_INERTIA = 25, 26  # strike: factor of the bracket, and I / (m R^2)
-P_PER_RADIUS = 27  # 1/m
-P_SLIDE_LASTS, P_ROLL_LASTS, P_SPIN_LASTS = 28, 29, 30  # s per m/s of slip, of speed; s per rad/s of spin
-P_REST_TIME = 31  # s: see physics.parameters
-P_SIZE = 32
+# --- balls, cushions, pockets ----------------------------------------------------------------------------
+CUE_BALL = 0
+NOBODY = -1  # in place of a ball's number
+WEST, EAST, SOUTH, NORTH = range(4)
+NO_CUSHION = -1
+POCKET_SW, POCKET_W, POCKET_NW, POCKET_NE, POCKET_E, POCKET_SE = range(6)
+ABSENT_FROM_START = -2  # in place of a pocket's number, for a ball that was not there; -1 for one that stayed
+
+# --- what is in the cue's way: 0 to 15 a ball, NOBODY, or ------------------------------------------------
+THROUGH_CUE_BALL = LANES  # the cue ball's own body
+BEHIND_CUSHION = LANES + 1  # + the cushion's number
+
+# --- a shot, in Olympiad units ---------------------------------------------------------------------------
+S_V, S_PHI, S_THETA, S_A, S_B = range(5)  # m/s, deg, deg, mm, mm
+SHOT_WIDTH = 5
+
+# --- a ball's state: 16 of them are a snapshot, one or two stand in a row of the trace -------------------
+A_X, A_Y, A_VX, A_VY, A_WX, A_WY, A_WZ, A_MOTION = range(8)
+STATE_WIDTH = 8
+
+# --- a row of the trace ----------------------------------------------------------------------------------
+T_TIME, T_KIND, T_BALL, T_OTHER, T_FIRST = range(5)
+T_SECOND = T_FIRST + STATE_WIDTH  # of a ball collision alone
+TRACE_WIDTH = T_SECOND + STATE_WIDTH
+
+# --- facts: the fields of physics.facts.FACTS_DTYPE, int32 and then float64 --------------------------------
+INTEGER_FACTS = {
+    "status": 1,
+    "n_events": 1,
+    "crossed_head_string": 1,
+    "crossed_before_contact": 1,
+    "first_contact": LANES,
+    "cushion": LANES,
+    "cushion_after_contact": LANES,
+    "pocketed": LANES,
+    "pocket": LANES,
+    "off_table": LANES,
+    "frozen_to_cushion": LANES,
+    "frozen_to_cue_ball": LANES,
+}
+FLOAT_FACTS = {"duration": 1, "first_contact_cue_ball": 2}
+"""Name and how many numbers."""
+
+F_STATUS, F_EVENTS, F_CROSSED, F_CROSSED_BEFORE = range(4)
+F_FIRST, F_CUSHION, F_CUSHION_AFTER, F_POCKETED, F_POCKET, F_OFF_TABLE, F_FROZEN_CUSHION, F_FROZEN_CUE = range(
+    4, 4 + 8 * LANES, LANES
+)
+F_INTEGERS = F_FROZEN_CUE + LANES
+F_DURATION, F_CUE_X, F_CUE_Y = range(F_INTEGERS // 2, F_INTEGERS // 2 + 3)  # as float64
+FACTS_WIDTH = 2 * (F_CUE_Y + 1)  # as int32
+
+# --- parameters of the table -------------------------------------------------------------------------------
+(
+    P_HALF_X,  # m: half width and half length, nose to nose
+    P_HALF_Y,
+    P_LINE_X,  # m: cushion lines of the ball's centre, moved inward by R
+    P_LINE_Y,
+    P_CORNER,  # m: |x| + |y| on the corner mouth lines
+    P_SIDE,  # m: half the side mouth
+    P_RADIUS,  # m
+    P_HEAD,  # m: head string, from the centre
+    P_SLIDE,  # m/s^2, m/s^2, rad/s^2: decelerations mu_s g, mu_r g, 5 mu_sp g / 2R
+    P_ROLL,
+    P_SPIN,
+    P_SPIN_SLIDING,  # rad/s^2: decay of w_z while sliding
+    P_MU_BALL,
+    P_E_BALL,
+    P_PARALLEL,  # factors of a rail collision
+    P_PERPENDICULAR,
+    P_KEEP_SPIN,
+    P_MASS_RATIO,  # ball mass / cue mass
+    P_HISTORICAL,  # 1.0 for the historical collision formulas
+    P_CUE_TEST,  # 1.0 if a blocked cue counts; m, m
+    P_CUE_LENGTH,
+    P_NOSE,
+    P_V_MAX,  # m/s, deg
+    P_THETA_MAX,
+    P_NO_SLIP,  # m/s
+    P_BRACKET,  # strike: factor of the bracket, and I / (m R^2)
+    P_INERTIA,
+    P_PER_RADIUS,  # 1/m
+    P_SLIDE_LASTS,  # s per m/s of slip, of speed; s per rad/s of spin
+    P_ROLL_LASTS,
+    P_SPIN_LASTS,
+    P_REST_TIME,  # s: see physics.parameters
+    P_SIZE,
+) = range(33)

@@ -1,7 +1,8 @@
-"""The event loop ([I], figure 1): strike, then event after event until every ball is at rest."""
+"""The event loop ([I], figure 1): strike; then detect the next event, advance to it, resolve it, until all rest."""
 
 import math
 
+from physics.kernels import layout as at
 from physics.kernels.compiling import (
     kernel,
     load,
@@ -11,196 +12,173 @@ from physics.kernels.compiling import (
     small_kernel,
     store,
     store_fact,
+    store_fact_number,
     store_integer,
 )
 from physics.kernels.detect.prediction import predict, release
-from physics.kernels.layout import (
-    CUE_STRIKE,
-    END,
-    F_DURATION,
-    F_EVENTS,
-    F_POCKET,
-    F_POCKETED,
-    F_STATUS,
-    KIND,
-    LANES,
-    LOOK_AGAIN,
-    MEET_BALL,
-    MEET_POCKET,
-    MOTION,
-    N_EVENTS,
-    NEXT,
-    NOTHING,
-    PARTNER,
-    POCKET_COLLISION,
-    POCKETED,
-    SPINNING_STATIONARY,
-    TRANSITION,
-    VX,
-    VY,
-    WX,
-    WY,
-    WZ,
-)
-from physics.kernels.recording import CUE_BALL, record
-from physics.kernels.resolve.cloth import transition
-from physics.kernels.resolve.cluster import FAILED, NOBODY, restate, settle
-from physics.kernels.resolve.touching import NO_CUSHION, bring, touched_cushion
-from physics.kernels.start import note_frozen, note_start, place, put_away, reset, restore
-from physics.kernels.strike import MILLIMETRE, direction, strike, unplayable
-from physics.kernels.tolerances import EVENT_LIMIT, STEP_LIMIT
-
-AT_REST, TOO_MANY_EVENTS = 0, 5
-"""Numbers of physics.Status."""
+from physics.kernels.recording import record
+from physics.kernels.resolve.cloth import restate, transition
+from physics.kernels.resolve.cluster import UNSETTLED, settle
+from physics.kernels.resolve.touching import bring, touched_cushion
+from physics.kernels.start import note_frozen, note_start, place, put_away, restore
+from physics.kernels.strike import playable, read_stroke, strike
+from physics.kernels.tolerances import STEP_LIMIT
 
 
 @small_kernel
-def least_of_four(w, at):
-    """The least of four numbers from place ``at`` on: no chain of sixteen comparisons that wait for each other."""
-    return min(min(load(w, at), load(w, at + 1)), min(load(w, at + 2), load(w, at + 3)))
+def least_of_four(memory, place):
+    """The least of four numbers from ``place`` on: no chain of sixteen comparisons that wait for each other."""
+    return min(min(load(memory, place), load(memory, place + 1)), min(load(memory, place + 2), load(memory, place + 3)))
 
 
 @small_kernel
-def earliest(w, k):
+def earliest(s):
     """Ball with the earliest next event, and its time. Ties: ball, cushion, pocket, transition, lowest number."""
-    time = min(least_of_four(w, NEXT), least_of_four(w, NEXT + 4))
-    time = min(time, min(least_of_four(w, NEXT + 8), least_of_four(w, NEXT + 12)))
+    time = min(least_of_four(s.w, at.NEXT), least_of_four(s.w, at.NEXT + 4))
+    time = min(time, min(least_of_four(s.w, at.NEXT + 8), least_of_four(s.w, at.NEXT + 12)))
     due = 0
-    for i in range(LANES):
-        due |= int(load(w, NEXT + i) == time) << i
+    for i in range(at.LANES):
+        due |= int(load(s.w, at.NEXT + i) == time) << i
     chosen = lowest_bit(due)
     due &= due - 1
     while due != 0:
         i = lowest_bit(due)
         due &= due - 1
-        if load_integer(k, KIND + i) < load_integer(k, KIND + chosen):
+        if load_integer(s.k, at.KIND + i) < load_integer(s.k, at.KIND + chosen):
             chosen = i
     return chosen, time
 
 
 @kernel
-def pocket(p, w, k, facts, trace, i, time):
-    """Ball ``i`` reaches a mouth: it is recorded where it crosses, and out of play."""
-    bring(p, w, k, facts, i, time)
-    number = load_integer(k, PARTNER + i)
-    store_integer(k, MOTION + i, POCKETED)
-    event = record(w, k, trace, time, plain(POCKET_COLLISION), i, number)
-    store_fact(facts, F_POCKETED + i, event)
-    store_fact(facts, F_POCKET + i, number)
-    put_away(w, k, i, POCKETED)
-
-
-@small_kernel
-def end_motion(p, w, k, facts, facts_float, trace, alive, i, time):
-    """Ball ``i`` ends its motion state; bit set of the balls still to predict, or FAILED.
-
-    Its new acceleration may press it against what it touches: then the contact rule has its say.
-    """
-    bring(p, w, k, facts, i, time)
-    event = transition(p, w, k, i)
-    record(w, k, trace, time, event, i, plain(NOBODY))
-    touched = predict(p, w, k, alive, i, time)
-    if event != SPINNING_STATIONARY and (touched != 0 or touched_cushion(p, w, k, i) != NO_CUSHION):
-        return settle(p, w, k, facts, facts_float, trace, i, plain(NOBODY), time)
-    return 0
-
-
-@kernel
-def predict_all(p, w, k, alive, changed, now):
+def detect(s, alive, changed, now):
     """Predict the next events of the balls in ``changed``."""
     rest = changed
     while rest != 0:
         i = lowest_bit(rest)
         rest &= rest - 1
-        release(k, i)
-        store(w, NEXT + i, load(w, END + i))
-        store_integer(k, KIND + i, TRANSITION if load(w, END + i) < math.inf else NOTHING)
+        release(s, i)
+        store(s.w, at.NEXT + i, load(s.w, at.END + i))
+        store_integer(s.k, at.KIND + i, at.TRANSITION if load(s.w, at.END + i) < math.inf else at.NOTHING)
     rest = changed
     while rest != 0:
         i = lowest_bit(rest)
         rest &= rest - 1
-        predict(p, w, k, alive, i, now)
+        predict(s, alive, i, now)
 
 
 @kernel
-def run(p, w, k, facts, facts_float, trace, alive, changed):
-    """Go from event to event, after the balls in ``changed`` were set in motion at time 0; (status, duration)."""
-    now = 0.0
-    predict_all(p, w, k, alive, changed, now)
-    for _ in range(STEP_LIMIT):
-        if load_integer(k, N_EVENTS) >= EVENT_LIMIT:
-            break
-        i, time = earliest(w, k)
-        if time == math.inf:
-            return AT_REST, now
-        kind = load_integer(k, KIND + i)
-        if kind == LOOK_AGAIN:
-            predict(p, w, k, alive, i, time)
-            continue
-        now = time
-        if kind == TRANSITION:
-            changed = end_motion(p, w, k, facts, facts_float, trace, alive, i, now)
-        elif kind == MEET_POCKET:
-            pocket(p, w, k, facts, trace, i, now)
-            alive &= ~(1 << i)
-            changed = 0
-        else:
-            partner = load_integer(k, PARTNER + i) if kind == MEET_BALL else NOBODY
-            changed = settle(p, w, k, facts, facts_float, trace, i, partner, now)
-        if changed == FAILED:
-            break
-        predict_all(p, w, k, alive, changed, now)
-    rest = alive
-    while rest != 0:  # else the balls would be left at different times
-        bring(p, w, k, facts, lowest_bit(rest), now)
-        rest &= rest - 1
-    return TOO_MANY_EVENTS, now
+def pocket(s, i, time):
+    """Ball ``i`` reaches a mouth: it is recorded where it crosses, and out of play."""
+    bring(s, i, time)
+    number = load_integer(s.k, at.PARTNER + i)
+    store_integer(s.k, at.MOTION + i, at.POCKETED)
+    event = record(s, time, plain(at.POCKET_COLLISION), i, number)
+    store_fact(s.facts, at.F_POCKETED + i, event)
+    store_fact(s.facts, at.F_POCKET + i, number)
+    put_away(s, i, at.POCKETED)
 
 
 @small_kernel
-def finish(k, facts, facts_float, status, duration):
+def end_motion(s, alive, i, time):
+    """Ball ``i`` ends its motion state; bit set of the balls still to predict, or UNSETTLED.
+
+    Its new acceleration may press it against what it touches: then the contact rule has its say.
+    """
+    bring(s, i, time)
+    event = transition(s, i)
+    record(s, time, event, i, plain(at.NOBODY))
+    touched = predict(s, alive, i, time)
+    if event != at.SPINNING_STATIONARY and (touched != 0 or touched_cushion(s, i) != at.NO_CUSHION):
+        return settle(s, i, plain(at.NOBODY), time)
+    return 0
+
+
+@kernel
+def run(s, alive, changed):
+    """Go from event to event, after the balls in ``changed`` were set in motion at time 0: (why it ended, duration)."""
+    now = 0.0
+    ended = at.OUT_OF_STEPS
+    detect(s, alive, changed, now)
+    for _ in range(STEP_LIMIT):
+        if load_integer(s.k, at.N_EVENTS) >= load_integer(s.k, at.EVENTS_ALLOWED):
+            ended = at.OUT_OF_EVENTS
+            break
+        i, time = earliest(s)
+        if time == math.inf:
+            return at.NOTHING_TO_COME, now
+        kind = load_integer(s.k, at.KIND + i)
+        if kind == at.LOOK_AGAIN:
+            predict(s, alive, i, time)
+            continue
+        now = time
+        if kind == at.TRANSITION:
+            changed = end_motion(s, alive, i, now)
+        elif kind == at.MEET_POCKET:
+            pocket(s, i, now)
+            alive &= ~(1 << i)
+            changed = 0
+        else:
+            partner = load_integer(s.k, at.PARTNER + i) if kind == at.MEET_BALL else at.NOBODY
+            changed = settle(s, i, partner, now)
+        if changed == UNSETTLED:
+            ended = at.OUT_OF_ROUNDS
+            break
+        detect(s, alive, changed, now)
+    rest = alive
+    while rest != 0:  # else the balls would be left at different times
+        bring(s, lowest_bit(rest), now)
+        rest &= rest - 1
+    return ended, now
+
+
+@small_kernel
+def finish(s, status, duration):
     """Note how the shot ended."""
-    store_fact(facts, F_STATUS, status)
-    store_fact(facts, F_EVENTS, load_integer(k, N_EVENTS))
-    store(facts_float, F_DURATION, duration)
-    return status
+    store_fact(s.facts, at.F_STATUS, status)
+    store_fact(s.facts, at.F_EVENTS, load_integer(s.k, at.N_EVENTS))
+    store_fact_number(s.facts, at.F_DURATION, duration)
+
+
+@small_kernel
+def run_and_finish(s, alive, changed):
+    """Go from event to event and note how it ended."""
+    ended, duration = run(s, alive, changed)
+    store_integer(s.k, at.ENDED, ended)
+    finish(s, at.AT_REST if ended == at.NOTHING_TO_COME else at.EVENT_LIMIT, duration)
 
 
 @kernel
-def play(p, w, k, facts, facts_float, trace, rows, positions, shot):
-    """Simulate one shot from rest; its status. ``shot``: v phi theta a b in Olympiad units."""
-    reset(k, facts, facts_float, rows)
-    alive = place(p, w, k, positions)
-    note_frozen(p, w, k, facts, alive)
-    v, phi, theta = load(shot, 0), load(shot, 1), load(shot, 2)
-    a, b = load(shot, 3) * MILLIMETRE, load(shot, 4) * MILLIMETRE
-    aim = direction(phi, theta)
-    status = unplayable(p, w, k, v, theta, aim, a, b)
-    if status != AT_REST:
-        return finish(k, facts, facts_float, status, 0.0)
-    vx, vy, wx, wy, wz = strike(p, v, aim, a, b)
-    store(w, VX, vx)
-    store(w, VY, vy)
-    store(w, WX, wx)
-    store(w, WY, wy)
-    store(w, WZ, wz)
-    restate(p, w, k, plain(1 << CUE_BALL))
-    record(w, k, trace, 0.0, plain(CUE_STRIKE), plain(CUE_BALL), plain(NOBODY))
-    note_start(p, w, k, facts)
-    changed = settle(p, w, k, facts, facts_float, trace, plain(CUE_BALL), plain(NOBODY), 0.0)
-    if changed == FAILED:
-        return finish(k, facts, facts_float, plain(TOO_MANY_EVENTS), 0.0)
-    status, duration = run(p, w, k, facts, facts_float, trace, alive, changed)
-    return finish(k, facts, facts_float, status, duration)
+def play(s, positions, shot):
+    """Simulate one shot from rest, after ``reset``. ``shot``: v phi theta a b in Olympiad units."""
+    alive = place(s, positions)
+    note_frozen(s, alive)
+    stroke = read_stroke(shot)
+    status = playable(s, stroke)
+    if status != at.AT_REST:
+        finish(s, status, 0.0)
+        return
+    vx, vy, wx, wy, wz = strike(s, stroke)
+    store(s.w, at.VX + at.CUE_BALL, vx)
+    store(s.w, at.VY + at.CUE_BALL, vy)
+    store(s.w, at.WX + at.CUE_BALL, wx)
+    store(s.w, at.WY + at.CUE_BALL, wy)
+    store(s.w, at.WZ + at.CUE_BALL, wz)
+    restate(s, plain(1 << at.CUE_BALL))
+    record(s, 0.0, plain(at.CUE_STRIKE), plain(at.CUE_BALL), plain(at.NOBODY))
+    note_start(s)
+    changed = settle(s, plain(at.CUE_BALL), plain(at.NOBODY), 0.0)
+    if changed == UNSETTLED:
+        store_integer(s.k, at.ENDED, at.OUT_OF_ROUNDS)
+        finish(s, plain(at.EVENT_LIMIT), 0.0)
+        return
+    run_and_finish(s, alive, changed)
 
 
 @kernel
-def go_on(p, w, k, facts, facts_float, trace, rows, states):
-    """Simulate on from balls in motion; its status. ``states``: see ``restore``."""
-    reset(k, facts, facts_float, rows)
-    alive = restore(p, w, k, states)
-    note_frozen(p, w, k, facts, alive)
+def go_on(s, states):
+    """Simulate on from balls in motion, after ``reset``. ``states``: see ``restore``."""
+    alive = restore(s, states)
+    note_frozen(s, alive)
     if alive & 1:
-        note_start(p, w, k, facts)
-    status, duration = run(p, w, k, facts, facts_float, trace, alive, alive)
-    return finish(k, facts, facts_float, status, duration)
+        note_start(s)
+    run_and_finish(s, alive, alive)

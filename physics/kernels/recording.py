@@ -1,6 +1,6 @@
 """What a shot leaves behind: the trace of events, if asked for, and the facts rules need, always."""
 
-from physics.kernels.advance import along
+from physics.kernels import layout as at
 from physics.kernels.compiling import (
     kernel,
     load,
@@ -8,120 +8,83 @@ from physics.kernels.compiling import (
     small_kernel,
     store,
     store_fact,
+    store_fact_number,
     store_integer,
 )
-from physics.kernels.layout import (
-    BALL_COLLISION,
-    CONTACT_SEEN,
-    CROSSED,
-    CUSHION_AFTER_SEEN,
-    CUSHION_SEEN,
-    F_CROSSED,
-    F_CROSSED_BEFORE,
-    F_CUE_X,
-    F_CUE_Y,
-    F_CUSHION,
-    F_CUSHION_AFTER,
-    F_FIRST,
-    HY,
-    MOTION,
-    N_EVENTS,
-    P_HALF_X,
-    P_HALF_Y,
-    P_HEAD,
-    SINCE,
-    STRETCH,
-    T_BALL,
-    T_FIRST,
-    T_KIND,
-    T_OTHER,
-    T_SECOND,
-    T_TIME,
-    TRACE_ROWS,
-    TRACE_WIDTH,
-    VX,
-    VY,
-    WX,
-    WY,
-    WZ,
-    X,
-    Y,
-)
-
-CUE_BALL = 0
+from physics.kernels.path import along
 
 
 @small_kernel
-def write_state(w, k, i, memory, at):
-    """Write x y vx vy wx wy wz motion of ball ``i`` to ``memory`` from place ``at`` on."""
-    store(memory, at, load(w, X + i))
-    store(memory, at + 1, load(w, Y + i))
-    store(memory, at + 2, load(w, VX + i))
-    store(memory, at + 3, load(w, VY + i))
-    store(memory, at + 4, load(w, WX + i))
-    store(memory, at + 5, load(w, WY + i))
-    store(memory, at + 6, load(w, WZ + i))
-    store(memory, at + 7, float(load_integer(k, MOTION + i)))
+def write_state(s, i, memory, place):
+    """Write the state of ball ``i`` to ``memory`` from ``place`` on."""
+    store(memory, place + at.A_X, load(s.w, at.X + i))
+    store(memory, place + at.A_Y, load(s.w, at.Y + i))
+    store(memory, place + at.A_VX, load(s.w, at.VX + i))
+    store(memory, place + at.A_VY, load(s.w, at.VY + i))
+    store(memory, place + at.A_WX, load(s.w, at.WX + i))
+    store(memory, place + at.A_WY, load(s.w, at.WY + i))
+    store(memory, place + at.A_WZ, load(s.w, at.WZ + i))
+    store(memory, place + at.A_MOTION, float(load_integer(s.k, at.MOTION + i)))
 
 
 @kernel
-def record(w, k, trace, time, kind, ball, other):
+def record(s, time, kind, ball, other):
     """Count an event and, while the trace has room, write its row; its ordinal."""
-    event = load_integer(k, N_EVENTS)
-    store_integer(k, N_EVENTS, event + 1)
-    if ball == CUE_BALL:
-        store_integer(k, STRETCH, event)
-    if event < load_integer(k, TRACE_ROWS):
-        start = event * TRACE_WIDTH
-        store(trace, start + T_TIME, time)
-        store(trace, start + T_KIND, float(kind))
-        store(trace, start + T_BALL, float(ball))
-        store(trace, start + T_OTHER, float(other))
-        write_state(w, k, ball, trace, start + T_FIRST)
-        if kind == BALL_COLLISION:
-            write_state(w, k, other, trace, start + T_SECOND)
+    event = load_integer(s.k, at.N_EVENTS)
+    store_integer(s.k, at.N_EVENTS, event + 1)
+    if ball == at.CUE_BALL:
+        store_integer(s.k, at.STRETCH, event)
+    if event < load_integer(s.k, at.TRACE_ROWS):
+        start = event * at.TRACE_WIDTH
+        store(s.trace, start + at.T_TIME, time)
+        store(s.trace, start + at.T_KIND, float(kind))
+        store(s.trace, start + at.T_BALL, float(ball))
+        store(s.trace, start + at.T_OTHER, float(other))
+        write_state(s, ball, s.trace, start + at.T_FIRST)
+        if kind == at.BALL_COLLISION:
+            write_state(s, other, s.trace, start + at.T_SECOND)
     return event
 
 
 @kernel
-def note_crossing(p, w, k, facts, time):
+def note_crossing(s, time):
     """Note when the cue ball's stretch up to ``time`` reaches the head string from behind."""
-    if load_integer(k, CROSSED) != 0:
+    if load_integer(s.k, at.CROSSED) != 0:
         return
-    head = load(p, P_HEAD)
-    start, speed, half = load(w, Y), load(w, VY), load(w, HY)
-    dt = time - load(w, SINCE)
+    head = load(s.p, at.P_HEAD)
+    start, speed, half = load(s.w, at.Y), load(s.w, at.VY), load(s.w, at.HY)
+    dt = time - load(s.w, at.SINCE)
     lowest = min(start, along(start, speed, half, dt))
     if speed < 0.0 and half > 0.0:
-        turning = -0.5 * speed / half
+        turning = -0.5 * speed / half  # y' = speed + 2 half t = 0
         if turning < dt:
             lowest = along(start, speed, half, turning)
     if lowest <= head:
-        store_integer(k, CROSSED, 1)
-        event = load_integer(k, STRETCH)
-        store_fact(facts, F_CROSSED, event)
-        if load_integer(k, CONTACT_SEEN) == 0:
-            store_fact(facts, F_CROSSED_BEFORE, event)
+        store_integer(s.k, at.CROSSED, 1)
+        event = load_integer(s.k, at.STRETCH)
+        store_fact(s.facts, at.F_CROSSED, event)
+        if load_integer(s.k, at.CONTACT_SEEN) == 0:
+            store_fact(s.facts, at.F_CROSSED_BEFORE, event)
 
 
 @kernel
-def note_contact(p, w, facts, facts_float, ball, event):
+def note_contact(s, ball, event):
     """Note a ball the cue ball strikes in the first round of contacts it makes."""
-    store_fact(facts, F_FIRST + ball, event)
-    store(facts_float, F_CUE_X, load(w, X) + load(p, P_HALF_X))
-    store(facts_float, F_CUE_Y, load(w, Y) + load(p, P_HALF_Y))
+    store_fact(s.facts, at.F_FIRST + ball, event)
+    store_fact_number(s.facts, at.F_CUE_X, load(s.w, at.X) + load(s.p, at.P_HALF_X))
+    store_fact_number(s.facts, at.F_CUE_Y, load(s.w, at.Y) + load(s.p, at.P_HALF_Y))
 
 
 @kernel
-def note_cushion(k, facts, ball, event):
+def note_cushion(s, ball, event):
     """Note that a ball was driven to a cushion."""
     bit = 1 << ball
-    seen = load_integer(k, CUSHION_SEEN)
+    seen = load_integer(s.k, at.CUSHION_SEEN)
     if seen & bit == 0:
-        store_integer(k, CUSHION_SEEN, seen | bit)
-        store_fact(facts, F_CUSHION + ball, event)
-    if load_integer(k, CONTACT_SEEN) != 0:
-        seen = load_integer(k, CUSHION_AFTER_SEEN)
+        store_integer(s.k, at.CUSHION_SEEN, seen | bit)
+        store_fact(s.facts, at.F_CUSHION + ball, event)
+    if load_integer(s.k, at.CONTACT_SEEN) != 0:
+        seen = load_integer(s.k, at.CUSHION_AFTER_SEEN)
         if seen & bit == 0:
-            store_integer(k, CUSHION_AFTER_SEEN, seen | bit)
-            store_fact(facts, F_CUSHION_AFTER + ball, event)
+            store_integer(s.k, at.CUSHION_AFTER_SEEN, seen | bit)
+            store_fact(s.facts, at.F_CUSHION_AFTER + ball, event)

@@ -2,6 +2,7 @@
 
 import math
 
+from physics.kernels import layout as at
 from physics.kernels.compiling import (
     kernel,
     load,
@@ -11,52 +12,12 @@ from physics.kernels.compiling import (
     small_kernel,
     store,
     store_fact,
+    store_fact_number,
     store_integer,
 )
-from physics.kernels.layout import (
-    ABSENT,
-    CROSSED,
-    END,
-    F_CROSSED,
-    F_CROSSED_BEFORE,
-    F_CUE_X,
-    F_CUE_Y,
-    F_DURATION,
-    F_FROZEN_CUE,
-    F_FROZEN_CUSHION,
-    F_INTEGERS,
-    FROZEN,
-    FROZEN_BALLS,
-    HX,
-    HY,
-    KIND,
-    LANES,
-    MOTION,
-    N_EVENTS,
-    NEXT,
-    NOTHING,
-    P_HALF_X,
-    P_HALF_Y,
-    P_HEAD,
-    P_LINE_X,
-    P_LINE_Y,
-    PAIRS,
-    POCKETED,
-    SINCE,
-    STATE_WIDTH,
-    STATIONARY,
-    TRACE_ROWS,
-    VX,
-    VY,
-    WX,
-    WY,
-    WZ,
-    X,
-    Y,
-)
-from physics.kernels.recording import CUE_BALL
+from physics.kernels.motion import on_table
 from physics.kernels.resolve.cloth import begin
-from physics.kernels.resolve.touching import NO_CUSHION, neighbours, touched_cushion
+from physics.kernels.resolve.touching import neighbours, touched_cushion
 from physics.kernels.tolerances import TOUCH
 
 FAR_AWAY = 1000.0
@@ -64,112 +25,119 @@ FAR_AWAY = 1000.0
 
 
 @kernel
-def put_away(w, k, i, motion):
+def put_away(s, i, motion):
     """Take ball ``i`` out of play."""
-    store_integer(k, MOTION + i, motion)
-    store_integer(k, KIND + i, NOTHING)
-    for quantity in (VX, VY, WX, WY, WZ, HX, HY, SINCE, Y):
-        store(w, quantity + i, 0.0)
-    store(w, X + i, FAR_AWAY * float(i + 1))
-    store(w, END + i, math.inf)
-    store(w, NEXT + i, math.inf)
+    store_integer(s.k, at.MOTION + i, motion)
+    store_integer(s.k, at.KIND + i, at.NOTHING)
+    for quantity in (at.VX, at.VY, at.WX, at.WY, at.WZ, at.HX, at.HY, at.SINCE, at.Y):
+        store(s.w, quantity + i, 0.0)
+    store(s.w, at.X + i, FAR_AWAY * float(i + 1))
+    store(s.w, at.END + i, math.inf)
+    store(s.w, at.NEXT + i, math.inf)
 
 
 @small_kernel
-def clear(w, k):
+def clear(s):
     """Nothing moves and nothing is to come."""
-    for n in range(VX, END):
-        store(w, n, 0.0)
-    for i in range(LANES):
-        store(w, END + i, math.inf)
-        store(w, NEXT + i, math.inf)
-        store_integer(k, KIND + i, NOTHING)
+    for n in range(at.VX, at.END):
+        store(s.w, n, 0.0)
+    for i in range(at.LANES):
+        store(s.w, at.END + i, math.inf)
+        store(s.w, at.NEXT + i, math.inf)
+        store_integer(s.k, at.KIND + i, at.NOTHING)
 
 
 @kernel
-def place(p, w, k, positions):
+def place(s, positions):
     """Lay out balls at rest from 32 numbers x0 y0 x1 y1 ... in the table's frame; NaN for a ball that is not there.
 
     Returns the bit set of balls on the table.
     """
-    clear(w, k)
+    clear(s)
     alive = 0
-    half_x, half_y = load(p, P_HALF_X), load(p, P_HALF_Y)
-    for i in range(LANES):
+    half_x, half_y = load(s.p, at.P_HALF_X), load(s.p, at.P_HALF_Y)
+    for i in range(at.LANES):
         x, y = load(positions, 2 * i), load(positions, 2 * i + 1)
         there = x == x
-        store_integer(k, MOTION + i, STATIONARY if there else ABSENT)
-        store(w, X + i, x - half_x if there else FAR_AWAY * float(i + 1))
-        store(w, Y + i, y - half_y if there else 0.0)
+        store_integer(s.k, at.MOTION + i, at.STATIONARY if there else at.ABSENT)
+        store(s.w, at.X + i, x - half_x if there else FAR_AWAY * float(i + 1))
+        store(s.w, at.Y + i, y - half_y if there else 0.0)
         alive |= int(there) << i
     return alive
 
 
-@kernel
-def restore(p, w, k, states):
-    """Lay out balls in motion from 16 states x y vx vy wx wy wz motion; bit set of balls on the table.
+@small_kernel
+def read_speeds(s, i, memory, place):
+    """Take velocity and spin of ball ``i`` from a state in ``memory``."""
+    store(s.w, at.VX + i, load(memory, place + at.A_VX))
+    store(s.w, at.VY + i, load(memory, place + at.A_VY))
+    store(s.w, at.WX + i, load(memory, place + at.A_WX))
+    store(s.w, at.WY + i, load(memory, place + at.A_WY))
+    store(s.w, at.WZ + i, load(memory, place + at.A_WZ))
 
-    Positions in the table's frame.
-    """
-    clear(w, k)
+
+@kernel
+def restore(s, states):
+    """Lay out balls in motion from 16 states, positions in the table's frame; bit set of balls on the table."""
+    clear(s)
     alive = 0
-    for i in range(LANES):
-        at = i * STATE_WIDTH
-        motion = int(load(states, at + 7))
-        store_integer(k, MOTION + i, motion)
-        store(w, X + i, FAR_AWAY * float(i + 1))
-        store(w, Y + i, 0.0)
-        if motion < POCKETED:
-            store(w, X + i, load(states, at) - load(p, P_HALF_X))
-            store(w, Y + i, load(states, at + 1) - load(p, P_HALF_Y))
-            for n in range(5):
-                store(w, VX + n * LANES + i, load(states, at + 2 + n))
-            begin(p, w, k, i, motion)
+    for i in range(at.LANES):
+        place = i * at.STATE_WIDTH
+        motion = int(load(states, place + at.A_MOTION))
+        store_integer(s.k, at.MOTION + i, motion)
+        store(s.w, at.X + i, FAR_AWAY * float(i + 1))
+        store(s.w, at.Y + i, 0.0)
+        if on_table(motion):
+            store(s.w, at.X + i, load(states, place + at.A_X) - load(s.p, at.P_HALF_X))
+            store(s.w, at.Y + i, load(states, place + at.A_Y) - load(s.p, at.P_HALF_Y))
+            read_speeds(s, i, states, place)
+            begin(s, i, motion)
             alive |= 1 << i
     return alive
 
 
 @small_kernel
-def reset(k, facts, facts_float, rows):
-    """Nothing has happened yet; the trace has room for ``rows`` events."""
-    for n in range(F_INTEGERS):
-        store_fact(facts, n, -1)
-    store(facts_float, F_DURATION, 0.0)
-    store(facts_float, F_CUE_X, math.nan)
-    store(facts_float, F_CUE_Y, math.nan)
-    for n in range(N_EVENTS, PAIRS):
-        store_integer(k, n, 0)
-    store_integer(k, TRACE_ROWS, rows)
+def reset(s, rows, events_allowed):
+    """Nothing has happened yet. The trace has room for ``rows`` events; after ``events_allowed`` the shot ends."""
+    for n in range(at.F_INTEGERS):
+        store_fact(s.facts, n, -1)
+    store_fact_number(s.facts, at.F_DURATION, 0.0)
+    store_fact_number(s.facts, at.F_CUE_X, math.nan)
+    store_fact_number(s.facts, at.F_CUE_Y, math.nan)
+    for n in range(at.SCALARS, at.PAIRS):
+        store_integer(s.k, n, 0)
+    store_integer(s.k, at.TRACE_ROWS, rows)
+    store_integer(s.k, at.EVENTS_ALLOWED, events_allowed)
 
 
 @kernel
-def note_frozen(p, w, k, facts, alive):
+def note_frozen(s, alive):
     """Note which balls touch a cushion or the cue ball at the start."""
-    for n in range(F_FROZEN_CUSHION, F_FROZEN_CUE + LANES):
-        store_fact(facts, n, 0)
-    rest = neighbours(p, w, k, plain(CUE_BALL), 0.0) if alive & 1 else 0
+    for n in range(at.F_FROZEN_CUSHION, at.F_FROZEN_CUE + at.LANES):
+        store_fact(s.facts, n, 0)
+    rest = neighbours(s, plain(at.CUE_BALL), 0.0) if alive & 1 else 0
     while rest != 0:
-        store_fact(facts, F_FROZEN_CUE + lowest_bit(rest), 1)
+        store_fact(s.facts, at.F_FROZEN_CUE + lowest_bit(rest), 1)
         rest &= rest - 1
-    near_x, near_y = load(p, P_LINE_X) - TOUCH, load(p, P_LINE_Y) - TOUCH
+    near_x, near_y = load(s.p, at.P_LINE_X) - TOUCH, load(s.p, at.P_LINE_Y) - TOUCH
     rest = 0
-    for i in range(LANES):
-        rest |= int((abs(load(w, X + i)) >= near_x) | (abs(load(w, Y + i)) >= near_y)) << i
+    for i in range(at.LANES):
+        rest |= int((abs(load(s.w, at.X + i)) >= near_x) | (abs(load(s.w, at.Y + i)) >= near_y)) << i
     rest &= alive
     while rest != 0:
         i = lowest_bit(rest)
         rest &= rest - 1
-        cushion = touched_cushion(p, w, k, i)
-        if cushion != NO_CUSHION:
-            store_integer(k, FROZEN + i, cushion)
-            store_integer(k, FROZEN_BALLS, load_integer(k, FROZEN_BALLS) | 1 << i)
-            store_fact(facts, F_FROZEN_CUSHION + i, 1)
+        cushion = touched_cushion(s, i)
+        if cushion != at.NO_CUSHION:
+            store_integer(s.k, at.FROZEN + i, cushion)
+            store_integer(s.k, at.FROZEN_BALLS, load_integer(s.k, at.FROZEN_BALLS) | 1 << i)
+            store_fact(s.facts, at.F_FROZEN_CUSHION + i, 1)
 
 
 @small_kernel
-def note_start(p, w, k, facts):
+def note_start(s):
     """Note whether the cue ball starts on or beyond the head string."""
-    if load(w, Y) <= load(p, P_HEAD):
-        store_integer(k, CROSSED, 1)
-        store_fact(facts, F_CROSSED, 0)
-        store_fact(facts, F_CROSSED_BEFORE, 0)
+    if load(s.w, at.Y) <= load(s.p, at.P_HEAD):
+        store_integer(s.k, at.CROSSED, 1)
+        store_fact(s.facts, at.F_CROSSED, 0)
+        store_fact(s.facts, at.F_CROSSED_BEFORE, 0)

@@ -7,162 +7,203 @@ With c = sqrt(R^2 - a^2 - b^2), C = cos theta, S = sin theta and offsets a, b in
 """
 
 import math
+from typing import NamedTuple
 
+from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel
-from physics.kernels.layout import (
-    ABSENT,
-    LANES,
-    MOTION,
-    P_BRACKET,
-    P_CUE_LENGTH,
-    P_CUE_TEST,
-    P_HALF_X,
-    P_HALF_Y,
-    P_INERTIA,
-    P_MASS_RATIO,
-    P_NOSE,
-    P_RADIUS,
-    P_THETA_MAX,
-    P_V_MAX,
-    POCKETED,
-    X,
-    Y,
-)
+from physics.kernels.motion import on_table
 from physics.kernels.trigonometry import sine_cosine
-
-PLAYABLE, CUE_OBSTRUCTED, TIP_OFF_BALL, OUT_OF_RANGE, NO_CUE_BALL = 0, 1, 2, 3, 4
-"""Numbers of physics.Status."""
 
 MILLIMETRE = 1e-3
 """m: tip offsets of a shot come in millimetres."""
 
-NOBODY = -1
-THROUGH_CUE_BALL = 16
-"""Obstacle numbers: 0..15 a ball, 16 the cue ball's own body, 17..20 a cushion (W, E, S, N)."""
+
+class Stroke(NamedTuple):
+    """A stroke as the physics takes it.
+
+    Attributes:
+        v: m/s. theta: deg. a, b: m, offsets of the tip to the right and up.
+        dx, dy: the cue's direction d in plan, unit. cos_theta, sin_theta: of the elevation.
+    """
+
+    v: float
+    theta: float
+    a: float
+    b: float
+    dx: float
+    dy: float
+    cos_theta: float
+    sin_theta: float
+
+
+class Cue(NamedTuple):
+    """The cue's axis, a segment from the tip r - c d - a l at height R + b along (-C d, S).
+
+    Attributes:
+        x, y: m, of the tip in plan. height, above: m, of the tip above the cloth, above the ball's centre.
+        ux, uy, rise: unit direction from the tip to the butt. length: m.
+    """
+
+    x: float
+    y: float
+    height: float
+    above: float
+    ux: float
+    uy: float
+    rise: float
+    length: float
 
 
 @small_kernel
-def direction(phi, theta):
-    """The cue's direction: (cos phi, sin phi, cos theta, sin theta) from its angles in deg."""
+def stroke_of(v, phi, theta, a, b):
+    """A stroke from v (m/s), phi and theta (deg), a and b (m)."""
     sin_phi, cos_phi = sine_cosine(phi)
     sin_theta, cos_theta = sine_cosine(theta)
-    return cos_phi, sin_phi, cos_theta, sin_theta
+    return Stroke(v, theta, a, b, cos_phi, sin_phi, cos_theta, sin_theta)
 
 
 @small_kernel
-def strike(p, v, aim, a, b):
+def read_stroke(shot):
+    """The stroke of a shot in Olympiad units."""
+    a, b = load(shot, at.S_A) * MILLIMETRE, load(shot, at.S_B) * MILLIMETRE
+    return stroke_of(load(shot, at.S_V), load(shot, at.S_PHI), load(shot, at.S_THETA), a, b)
+
+
+@small_kernel
+def strike(s, stroke):
     """Velocity (vx, vy) in m/s and spin (wx, wy, wz) in rad/s of the cue ball after the strike.
 
-    ``v`` m/s, ``aim`` from ``direction``, ``a`` and ``b`` metres; the tip must be on the ball.
+    The tip must be on the ball.
     """
-    radius = load(p, P_RADIUS)
-    depth = math.sqrt(radius * radius - a * a - b * b)
-    dx, dy, cos_theta, sin_theta = aim
-    lever = b * cos_theta - depth * sin_theta
-    bracket = (a * a + lever * lever) * load(p, P_BRACKET)
-    force = 2.0 * v / (1.0 + load(p, P_MASS_RATIO) + 2.5 / (radius * radius) * bracket)  # F / m
-    turn = force / (load(p, P_INERTIA) * radius * radius)  # F / I
-    along = a * sin_theta * turn
+    a, b = stroke.a, stroke.b
+    radius = load(s.p, at.P_RADIUS)
+    depth = math.sqrt(radius * radius - a * a - b * b)  # c: the tip meets the ball's surface
+    lever = b * stroke.cos_theta - depth * stroke.sin_theta  # b C - c S: of the blow about the axis l
+    bracket = (a * a + lever * lever) * load(s.p, at.P_BRACKET)
+    # Elastic, along the cue: M V = M V' + F and V' + V = the tip's own speed along the cue, in which the ball's
+    # spin adds [a^2 + lever^2] F/I to F/m, with I = 2/5 m R^2 (eq. 1).
+    force = 2.0 * stroke.v / (1.0 + load(s.p, at.P_MASS_RATIO) + 2.5 / (radius * radius) * bracket)  # F / m
+    turn = force / (load(s.p, at.P_INERTIA) * radius * radius)  # F / I
+    along = a * stroke.sin_theta * turn
     across = lever * turn
-    speed = force * cos_theta
+    speed = force * stroke.cos_theta  # the cloth takes up the downward part F S (eq. 2)
     return (
-        speed * dx,
-        speed * dy,
-        along * dx - across * dy,
-        along * dy + across * dx,
-        a * cos_theta * turn,
+        speed * stroke.dx,
+        speed * stroke.dy,
+        along * stroke.dx - across * stroke.dy,  # l = (-d_y, d_x)
+        along * stroke.dy + across * stroke.dx,
+        a * stroke.cos_theta * turn,
     )
 
 
 @small_kernel
-def blocked_by_ball(px, py, pz, ux, uy, uz, length, radius):
-    """Whether the segment of ``length`` from the origin along unit (ux, uy, uz) comes nearer to p than ``radius``."""
-    along = px * ux + py * uy + pz * uz
-    along = min(max(along, 0.0), length)
-    gx = px - along * ux
-    gy = py - along * uy
-    gz = pz - along * uz
+def cue_of(s, stroke, depth):
+    """The cue as it lies at the stroke; ``depth``: c."""
+    return Cue(
+        load(s.w, at.X) - depth * stroke.dx + stroke.a * stroke.dy,
+        load(s.w, at.Y) - depth * stroke.dy - stroke.a * stroke.dx,
+        load(s.p, at.P_RADIUS) + stroke.b,
+        stroke.b,
+        -stroke.cos_theta * stroke.dx,
+        -stroke.cos_theta * stroke.dy,
+        stroke.sin_theta,
+        load(s.p, at.P_CUE_LENGTH),
+    )
+
+
+@small_kernel
+def blocked_by_ball(s, cue, ball):
+    """Whether the cue's axis comes nearer to the centre of ``ball`` than R."""
+    px, py, pz = load(s.w, at.X + ball) - cue.x, load(s.w, at.Y + ball) - cue.y, -cue.above
+    along = px * cue.ux + py * cue.uy + pz * cue.rise  # the foot of the perpendicular, kept on the segment
+    along = min(max(along, 0.0), cue.length)
+    gx = px - along * cue.ux
+    gy = py - along * cue.uy
+    gz = pz - along * cue.rise
+    radius = load(s.p, at.P_RADIUS)
     return gx * gx + gy * gy + gz * gz < radius * radius
 
 
 @small_kernel
-def below_nose(start, step, line, height, rise, length, nose):
-    """Whether the cue crosses the vertical plane at ``line`` no higher than the nose of the cushion."""
-    end = start + step * length
+def below_nose(start, step, line, cue, nose):
+    """Whether the cue crosses the vertical plane at ``line`` no higher than the nose of the cushion.
+
+    ``start`` and ``step``: the tip's coordinate across the plane, and that of the cue's direction.
+    """
+    end = start + step * cue.length
     if (start < line) == (end < line) or step == 0.0:
         return False
-    return height + rise * ((line - start) / step) <= nose
+    return cue.height + cue.rise * ((line - start) / step) <= nose
 
 
 @kernel
-def obstacle(p, w, aim, a, b):
-    """What blocks the cue: NOBODY, or the number of the first obstacle. ``a`` and ``b`` in metres.
+def obstacle(s, stroke):
+    """What blocks the cue: NOBODY, or the number of the first obstacle.
 
     Balls off the table lie far away and block nothing.
-
-    The cue is the segment from the tip r - c d - a l, at height R + b, along (-C d, S).
     """
-    radius = load(p, P_RADIUS)
-    depth = math.sqrt(radius * radius - a * a - b * b)
-    dx, dy, cos_theta, sin_theta = aim
-    if depth * cos_theta + b * sin_theta <= 0.0:
-        return THROUGH_CUE_BALL
-    length = load(p, P_CUE_LENGTH)
-    ux, uy = -cos_theta * dx, -cos_theta * dy
-    tip_x = load(w, X) - depth * dx + a * dy
-    tip_y = load(w, Y) - depth * dy - a * dx
+    radius = load(s.p, at.P_RADIUS)
+    depth = math.sqrt(radius * radius - stroke.a * stroke.a - stroke.b * stroke.b)
+    if depth * stroke.cos_theta + stroke.b * stroke.sin_theta <= 0.0:
+        return at.THROUGH_CUE_BALL
+    cue = cue_of(s, stroke, depth)
     blocking = 0
-    for ball in range(LANES):
-        px, py = load(w, X + ball) - tip_x, load(w, Y + ball) - tip_y
-        blocking |= int(blocked_by_ball(px, py, -b, ux, uy, sin_theta, length, radius)) << ball
-    blocking &= ~1
+    for ball in range(at.LANES):
+        blocking |= int(blocked_by_ball(s, cue, ball)) << ball
+    blocking &= ~(1 << at.CUE_BALL)
     if blocking != 0:
         return lowest_bit(blocking)
-    half_x, half_y, nose = load(p, P_HALF_X), load(p, P_HALF_Y), load(p, P_NOSE)
-    height = radius + b
-    if below_nose(tip_x, ux, -half_x, height, sin_theta, length, nose):
-        return THROUGH_CUE_BALL + 1
-    if below_nose(tip_x, ux, half_x, height, sin_theta, length, nose):
-        return THROUGH_CUE_BALL + 2
-    if below_nose(tip_y, uy, -half_y, height, sin_theta, length, nose):
-        return THROUGH_CUE_BALL + 3
-    if below_nose(tip_y, uy, half_y, height, sin_theta, length, nose):
-        return THROUGH_CUE_BALL + 4
-    return NOBODY
+    half_x, half_y, nose = load(s.p, at.P_HALF_X), load(s.p, at.P_HALF_Y), load(s.p, at.P_NOSE)
+    if below_nose(cue.x, cue.ux, -half_x, cue, nose):
+        return at.BEHIND_CUSHION + at.WEST
+    if below_nose(cue.x, cue.ux, half_x, cue, nose):
+        return at.BEHIND_CUSHION + at.EAST
+    if below_nose(cue.y, cue.uy, -half_y, cue, nose):
+        return at.BEHIND_CUSHION + at.SOUTH
+    if below_nose(cue.y, cue.uy, half_y, cue, nose):
+        return at.BEHIND_CUSHION + at.NORTH
+    return at.NOBODY
 
 
 @kernel
-def unplayable(p, w, k, v, theta, aim, a, b):
-    """Status number of a shot that cannot be played, or 0. ``theta`` in deg, ``a`` and ``b`` in metres."""
-    radius = load(p, P_RADIUS)
-    if not (0.0 <= v <= load(p, P_V_MAX) and 0.0 <= theta <= load(p, P_THETA_MAX)):
-        return OUT_OF_RANGE
-    if load_integer(k, MOTION) == ABSENT or load_integer(k, MOTION) == POCKETED:
-        return NO_CUE_BALL
-    if a * a + b * b > radius * radius:
-        return TIP_OFF_BALL
-    if load(p, P_CUE_TEST) != 0.0 and obstacle(p, w, aim, a, b) != NOBODY:
-        return CUE_OBSTRUCTED
-    return PLAYABLE
+def playable(s, stroke):
+    """Status of a stroke before it is played: AT_REST if nothing is against it."""
+    radius = load(s.p, at.P_RADIUS)
+    in_range = 0.0 <= stroke.v <= load(s.p, at.P_V_MAX) and 0.0 <= stroke.theta <= load(s.p, at.P_THETA_MAX)
+    if not in_range:
+        return at.OUT_OF_RANGE
+    if not on_table(load_integer(s.k, at.MOTION + at.CUE_BALL)):
+        return at.NO_CUE_BALL
+    if stroke.a * stroke.a + stroke.b * stroke.b > radius * radius:
+        return at.TIP_OFF_BALL
+    if load(s.p, at.P_CUE_TEST) != 0.0 and obstacle(s, stroke) != at.NOBODY:
+        return at.CUE_OBSTRUCTED
+    return at.AT_REST
 
 
 @kernel
-def lowest_elevation(p, w, phi, a, b):
+def is_free(s, phi, theta, a, b):
+    """Whether nothing blocks the cue at elevation ``theta`` (deg)."""
+    return obstacle(s, stroke_of(0.0, phi, theta, a, b)) == at.NOBODY
+
+
+@kernel
+def lowest_elevation(s, phi, a, b):
     """Smallest elevation in degrees at which nothing blocks the cue, NaN if none.
 
     The free elevations need not be one interval (a low tip passes under a ball's widest part), so they are looked
     for in steps of 1/8 deg and the edge of the first found is bisected to the last bit.
     """
-    if obstacle(p, w, direction(phi, 0.0), a, b) == NOBODY:
+    if is_free(s, phi, 0.0, a, b):
         return 0.0
-    top = load(p, P_THETA_MAX)
+    top = load(s.p, at.P_THETA_MAX)
     low = 0.0
     while low < top:
         high = min(low + 0.125, top)
-        if obstacle(p, w, direction(phi, high), a, b) == NOBODY:
+        if is_free(s, phi, high, a, b):
             middle = 0.5 * (low + high)
             while low < middle < high:
-                if obstacle(p, w, direction(phi, middle), a, b) == NOBODY:
+                if is_free(s, phi, middle, a, b):
                     high = middle
                 else:
                     low = middle

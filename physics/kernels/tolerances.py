@@ -55,3 +55,7 @@ at a gap far below ``TOUCH``."""
 
 ROOT_RESIDUAL = 2e-17
 """m^2. |d|^2 - (2R)^2 at which a contact counts as reached: a gap of 2e-16 m, the rounding of d itself."""
+
+SETTLED_STEPS = 8
+"""Newton's steps back to where balls that touched, and have parted, meet. At the cap, or where they lead away, the
+contact is taken DEEPER than the balls are: 1.25e-13 m later."""

@@ -4,7 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from mpmath import mpc, mpf
 from support.moving import Launch, after, first, let_go, rolling
+from support.truth.laws import historical_collision
+from support.truth.model import Ball, World
 
 import physics
 
@@ -139,3 +142,37 @@ def test_the_historical_law_rolls_two_moving_balls():
         assert state.motion is physics.Motion.ROLLING
         assert state.spin[:2] == pytest.approx((-state.velocity[1] / R, state.velocity[0] / R), rel=1e-12)
     assert after(event, 0).spin[2] == pytest.approx(30.0, abs=0.3)
+
+
+SPINNING_IN_PLACE = Launch((0.6, 1.0), spin=(0.0, 0.0, -35.0))
+
+
+@pytest.mark.parametrize(("mover", "spinner"), [(0, 1), (1, 0)])
+@pytest.mark.parametrize("lean", [0.0, 25.0, -50.0])
+def test_the_historical_law_spares_a_ball_that_spins_in_place(mover, spinner, lean):
+    """Only two balls that both change their place are set to natural roll (FastFiz 0.2), whatever their numbers.
+
+    Judged by the arbitrary-precision law of ``support/truth``, which tells by the velocity, not by a motion state.
+    """
+    launches, _ = meeting(lean, spin=(12.0, -20.0, 30.0))
+    launches = {mover: launches[0], spinner: SPINNING_IN_PLACE}
+    table = physics.Table.fastfiz()
+    result = let_go(table, launches)
+    event = first(result, "ball_collision")
+    before = result.at(math.nextafter(event.time, 0.0))
+    balls = {
+        i: Ball(
+            i,
+            *(mpc(*(float(x) for x in xy)) for xy in (before.positions[i], before.velocities[i], before.spins[i, :2])),
+        )
+        for i in (0, 1)
+    }
+    for i, ball in balls.items():
+        ball.w_z = mpf(float(before.spins[i, 2]))
+    historical_collision(World(historical=True), balls[0], balls[1])
+    for i, ball in balls.items():
+        state = after(event, i)
+        assert complex(*state.velocity) == pytest.approx(complex(ball.velocity), rel=1e-9, abs=1e-9)
+        assert complex(*state.spin[:2]) == pytest.approx(complex(ball.w_xy), rel=1e-7, abs=1e-6)
+        assert state.spin[2] == pytest.approx(float(ball.w_z), rel=1e-7, abs=1e-6)
+        assert state.motion is physics.Motion.SLIDING

@@ -6,10 +6,14 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.kernels import from_python
 from support.require import reference_data
 
-from physics.kernels.resolve.cushion_laws import han, mathavan
-from physics.kernels.resolve.fixed import impact
+from physics.kernels.resolve import cushion_laws, fixed
+
+han = from_python(cushion_laws.han)
+mathavan = from_python(cushion_laws.mathavan)
+impact = from_python(fixed.impact)
 
 R = 0.028575
 H = 0.03629025

@@ -10,10 +10,15 @@ import numpy as np
 import pytest
 
 import physics
-from physics import engine, facts, simulation, status
+from physics import engine, facts, status
+from physics.constants import POCKET_NAMES
 from physics.events import KINDS, EventKind, Motion
-from physics.kernels import layout, strike
+from physics.kernels import layout
 from physics.parameters import parameters
+
+ROWS = "X Y VX VY WX WY WZ HX HY SINCE END NEXT VX_CHANGE VY_CHANGE WX_CHANGE WY_CHANGE WZ_CHANGE"
+SPEEDS = ("VX", "VY", "WX", "WY", "WZ")
+POCKETS = ("POCKET_SW", "POCKET_W", "POCKET_NW", "POCKET_NE", "POCKET_E", "POCKET_SE")
 
 ONE_SHOT = """
 import physics
@@ -34,10 +39,22 @@ def run_shot(**environment: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_sizes_are_those_of_the_layout() -> None:
-    assert (engine.WORK_FLOATS, engine.WORK_INTEGERS) == (layout.W_SIZE, layout.K_SIZE)
+    assert engine.workspace().shape == (1, layout.W_SIZE + layout.K_SIZE)
     assert parameters(physics.Table.olympiad()).shape == (1, layout.P_SIZE)
-    assert simulation.TRACE_WIDTH == layout.TRACE_WIDTH
-    assert facts.FACTS_DTYPE.itemsize == 4 * layout.F_INTEGERS + 8 * (layout.F_CUE_Y + 1 - layout.F_DURATION)
+    assert facts.FACTS_DTYPE.itemsize == 4 * layout.FACTS_WIDTH
+    assert layout.FACTS_WIDTH == layout.F_INTEGERS + 2 * (layout.F_CUE_Y + 1 - layout.F_DURATION)
+
+
+def test_no_two_quantities_share_a_place() -> None:
+    """Rows of 16 lanes and lists of 120 pairs follow one another; a state's columns and a trace row's too."""
+    rows = ROWS.split()
+    lists = ("CLOSING", "NORMAL_X", "NORMAL_Y")
+    used = [getattr(layout, name) + lane for name in rows for lane in range(layout.LANES)]
+    used += [getattr(layout, name) + pair for name in lists for pair in range(layout.MOST_PAIRS)]
+    assert sorted(used) == list(range(layout.W_SIZE))
+    assert all(getattr(layout, f"{name}_CHANGE") - getattr(layout, name) == layout.CHANGE for name in SPEEDS)
+    assert [getattr(layout, name) for name in SPEEDS] == list(layout.SPEEDS)
+    assert layout.TRACE_WIDTH == layout.T_FIRST + 2 * layout.STATE_WIDTH
 
 
 def test_facts_lie_where_kernels_write_them() -> None:
@@ -67,8 +84,19 @@ def test_numbers_of_states_kinds_and_statuses_are_those_of_the_layout() -> None:
     for number, kind in enumerate(KINDS):
         assert getattr(layout, kind.name) == number
     assert set(KINDS) == set(EventKind)
-    for name in ("CUE_OBSTRUCTED", "TIP_OFF_BALL", "OUT_OF_RANGE", "NO_CUE_BALL"):
-        assert getattr(strike, name) == status.Status[name]
+    for each in status.Status:
+        assert getattr(layout, each.name) == each
+
+
+def test_recorded_numbers_stay() -> None:
+    """Records and answers of version 0.1.0 hold these: a new one is appended."""
+    assert [motion.name for motion in Motion] == ["STATIONARY", "SPINNING", "SLIDING", "ROLLING", "POCKETED", "ABSENT"]
+    assert [each.name for each in status.Status] == (
+        ["AT_REST", "CUE_OBSTRUCTED", "TIP_OFF_BALL", "OUT_OF_RANGE", "NO_CUE_BALL", "EVENT_LIMIT"]
+    )
+    assert (layout.WEST, layout.EAST, layout.SOUTH, layout.NORTH) == (0, 1, 2, 3)
+    names = [name.removeprefix("POCKET_") for name in sorted(POCKETS, key=lambda name: getattr(layout, name))]
+    assert tuple(names) == POCKET_NAMES
 
 
 def test_a_workspace_is_no_other_threads() -> None:
@@ -76,8 +104,7 @@ def test_a_workspace_is_no_other_threads() -> None:
     with ThreadPoolExecutor(1) as other:
         first, second = engine.workspace(), other.submit(engine.workspace).result()
     assert engine.workspace() is first
-    assert not np.shares_memory(first[0], second[0])
-    assert not np.shares_memory(first[1], second[1])
+    assert not np.shares_memory(first, second)
 
 
 def test_the_cache_folder_is_named_by_the_kernels(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -1,9 +1,9 @@
 """``Table.fastfiz()`` against the 332 recorded shots of the historical engine (../shared/data/README.md).
 
 Compared over each shot's stable events: those that keep type, balls, place and time when phi moves by 1e-10 deg and v
-by 1e-12. Times to 1e-9 s; where the corpus itself measured a larger sensitivity (``stable_dt``), to that. The
-historical engine pushes overlapping balls apart by 1e-11 m, which such shots amplify: the arbitrary-precision engine
-differs from the corpus by as much (test_truth_engine.py).
+by 1e-12. Times to 1e-9 s; where the corpus itself measured a larger sensitivity (``stable_dt``), to that: such a shot
+enlarges the 1e-11 m by which the historical engine pushes overlapping balls apart. The corpus holds no collision with
+a ball that spins in place: ``test_ball_ball.py`` has those.
 """
 
 from functools import cache

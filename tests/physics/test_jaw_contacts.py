@@ -7,12 +7,21 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from support.kernels import from_python
 from support.require import reference_data
 from support.truth.jaws import JawTruth, first_contact
 
 import physics
-from physics.kernels.detect.jaws import drops, falling, falling_from_touch, meets_facing, meets_horn
+from physics.kernels.detect import jaws
+from physics.kernels.detect.jaws import Jaw
+from physics.kernels.path import Path
 from physics.kernels.tolerances import DEEPER
+
+drops = from_python(jaws.drops)
+falling = from_python(jaws.falling)
+falling_from_touch = from_python(jaws.falling_from_touch)
+meets_facing = from_python(jaws.meets_facing)
+meets_horn = from_python(jaws.meets_horn)
 
 NINE = physics.RealTable.of_size("nine_foot")
 RHO = NINE.contact_distance
@@ -21,7 +30,7 @@ SHAPES = {"corner": NINE.corner_shape, "side": NINE.side_shape}
 
 def constants(mouth):
     """``jaw`` as the kernels take it."""
-    return (mouth.nose_end, mouth.horn_radius, *mouth.facing_start, *mouth.facing_normal, mouth.facing_length)
+    return Jaw(mouth.nose_end, mouth.horn_radius, *mouth.facing_start, *mouth.facing_normal, mouth.facing_length)
 
 
 def gap(c, b, a, t, distance) -> float:
@@ -42,10 +51,10 @@ def test_the_reference_contacts(family):
     for case in cases:
         c, b, a, t_max, distance = case["c"], case["b"], case["a"], case["t_max"], case["distance"]
         if family == "horn_cloth":
-            horn = (0.0, distance - RHO, 0.0, 0.0, 0.0, 1.0, 0.0)
-            t = meets_horn(horn, RHO, c[0], c[1] - (distance - RHO), *b, *a, t_max, t_max)
+            horn = Jaw(0.0, distance - RHO, 0.0, 0.0, 0.0, 1.0, 0.0)
+            t = meets_horn(horn, RHO, Path(c[0], c[1] - (distance - RHO), *b, *a), t_max, t_max)
         else:
-            t = drops(*c, *b, *a, distance, t_max, t_max)
+            t = drops(Path(*c, *b, *a), distance, t_max, t_max)
         if case["time"] is None:
             assert t != t or case["grazes_at"] is not None, case["id"]
         else:
@@ -80,9 +89,9 @@ def test_every_piece_agrees_with_thirty_digits(kind):
     for s, d, vs, vd, hs, hd, lasts in paths(rng, shape, 400):
         with mp.workdps(30):
             horn, facing = first_contact(truth, (s, d), (vs, vd), (hs, hd), lasts)
-        t = meets_horn(constants(shape), RHO, s, d, vs, vd, hs, hd, lasts, lasts)
+        t = meets_horn(constants(shape), RHO, Path(s, d, vs, vd, hs, hd), lasts, lasts)
         agree(t, horn, abs(vs) + abs(vd))
-        t = meets_facing(constants(shape), RHO, s, d, vs, vd, hs, hd, lasts)
+        t = meets_facing(constants(shape), RHO, Path(s, d, vs, vd, hs, hd), lasts)
         agree(math.nan if t == math.inf else t, facing, abs(vs) + abs(vd))
         met += (horn is not None) + (facing is not None)
     assert met > 50
@@ -144,17 +153,17 @@ def test_a_path_that_leaves_a_strip_at_its_end_meets_the_disc():
             vs, vd = -math.cos(angle), -math.sin(angle)
             # Beyond the seam lies the jaw: within 20.001 mm something must be met, unless the path only grazes it.
             t = min(
-                meets_facing(jaw, RHO, s, d, vs, vd, 0.0, 0.0, 0.03),
+                meets_facing(jaw, RHO, Path(s, d, vs, vd, 0.0, 0.0), 0.03),
                 falling(d - RHO, -vd, 0.0) if s + 0.02 * vs >= shape.nose_end else math.inf,
-                *(x for x in [meets_horn(jaw, RHO, s, d, vs, vd, 0.0, 0.0, 0.03, 0.03)] if x == x),
+                *(x for x in [meets_horn(jaw, RHO, Path(s, d, vs, vd, 0.0, 0.0), 0.03, 0.03)] if x == x),
             )
             grazes = abs(vs * ns + vd * nd) < 1e-3 or abs(vd) < 1e-3
             assert t <= 0.02 + 1e-9 or grazes, (angle, t)
 
 
 def test_the_drop_edge_is_met_from_outside_alone():
-    assert drops(0.0634, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0635, 1.0, 1.0) == 0.0
-    assert drops(0.0635 + 1e-12, 0.0, -1e-3, 0.0, 0.0, 0.0, 0.0635, 1.0, 1.0) == pytest.approx(1e-9, rel=1e-3)
-    assert drops(0.0635 + 1e-12, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0635, 1.0, 1.0) != 0.0
-    outside = drops(0.07, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0635, 2.0, 2.0)
+    assert drops(Path(0.0634, 0.0, 0.5, 0.0, 0.0, 0.0), 0.0635, 1.0, 1.0) == 0.0
+    assert drops(Path(0.0635 + 1e-12, 0.0, -1e-3, 0.0, 0.0, 0.0), 0.0635, 1.0, 1.0) == pytest.approx(1e-9, rel=1e-3)
+    assert drops(Path(0.0635 + 1e-12, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0635, 1.0, 1.0) != 0.0
+    outside = drops(Path(0.07, -1.0, 0.0, 1.0, 0.0, 0.0), 0.0635, 2.0, 2.0)
     assert outside != outside

@@ -7,9 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import exp, mp, mpf
+from support.kernels import from_python
 from support.require import reference_data
 
-from physics.kernels.resolve.pair_laws import collide_in_space, fading, friction
+from physics.kernels.resolve import pair_laws
+
+collide_in_space = from_python(pair_laws.collide_in_space)
+fading = from_python(pair_laws.fading)
+friction = from_python(pair_laws.friction)
 
 R = 0.028575
 V = tuple[float, float, float]

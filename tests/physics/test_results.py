@@ -9,10 +9,14 @@ from support.moving import after
 from support.play import OPEN
 
 import physics
+from physics import simulation
+from physics.kernels import layout
 
 TABLE = physics.Table.olympiad()
 R, W, L = 0.028575, 1.116, 2.236
 BREAK = physics.Shot(9.0, 270.0, 12.0)
+POISON = -77
+"""What the memory of a fresh array holds in a test; no column of a trace can."""
 
 
 def shoot(positions, shot, table=OPEN):
@@ -50,6 +54,21 @@ def test_events_name_what_is_involved(broken):
 
 def events_of(result, kind):
     return [event for event in result.events if event.kind.value == kind]
+
+
+@pytest.mark.parametrize("shot", [BREAK, physics.Shot(1.0, 90.0)], ids=["grown trace", "first trace"])
+def test_a_result_holds_no_memory_that_was_never_written(monkeypatch, shot):
+    """An event with one ball leaves the second ball's columns, and a short shot the last rows: they read 0."""
+    monkeypatch.setattr(simulation, "TRACE_ROWS", 40)
+    monkeypatch.setattr(np, "empty", lambda shape, dtype=float: np.full(shape, POISON, dtype))
+    result = physics.simulate(OPEN, physics.rack(OPEN, "eight_ball", seed=7), shot)
+    monkeypatch.undo()
+    assert (result.n_events > 40) == (shot is BREAK)
+    rows = result._trace
+    assert not np.any(rows == POISON)
+    assert not np.any(rows.base == POISON)
+    alone = rows[rows[:, layout.T_KIND] != layout.BALL_COLLISION]
+    assert not np.any(alone[:, layout.T_SECOND :])
 
 
 def test_without_trace_there_are_no_events():

@@ -6,10 +6,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from mpmath import mp, mpf
+from support.kernels import from_python
 from support.truth.squirt import struck_exactly
 
+from physics.kernels import squirt as squirting
 from physics.kernels.angles import sine_cosine
-from physics.kernels.squirt import struck
+
+struck = from_python(squirting.struck)
 
 R = 0.028575
 BALL, CUE = 0.170097, 0.567

@@ -1,29 +1,60 @@
-"""When two balls meet: the earliest root of the quartic |c + b t + a t^2|^2 = D ([II] eq. 7).
+"""When two balls meet: the earliest root of the quartic |c + b t + a t^2|^2 = D^2 ([II] eq. 7).
 
-The quartic f is never expanded. With m a lower bound of f'' on an interval, f + f' h + m h^2 / 2 lies below f there,
+The quartic f(t) is never expanded. With m a lower bound of f'' on an interval, f + f' h + m h^2 / 2 lies below f there,
 so its first root never oversteps a contact, and "no root" proves that there is none. f'' is a convex parabola: its
 least value on an interval is exact and cheap. (docs/physics.md, eq. 22-25.)
+
+A relative path is a ``Path``: c = (x, y), b = (vx, vy), a = (hx, hy).
 """
 
 import math
+from typing import NamedTuple
 
 from physics.kernels.compiling import kernel, small_kernel
-from physics.kernels.tolerances import DEEPER, ROOT_RESIDUAL, SLOW_APPROACH, SOLVER_STEPS, TOUCH
+from physics.kernels.tolerances import (
+    DEEPER,
+    ROOT_RESIDUAL,
+    SETTLED_STEPS,
+    SLOW_APPROACH,
+    SOLVER_STEPS,
+    TOUCH,
+)
+
+(
+    AT_ONCE,  # they touch and approach
+    MEETS,  # f fell to the rounding of the gap
+    STALLED,  # the next step is below the last place of t: the contact is here
+    OUT_OF_STEPS,  # SOLVER_STEPS were taken: the contact is here, at a gap far below TOUCH
+    NEVER,  # proved: f stays above 0 up to the end
+    LATER,  # not up to ``limit``
+    DEEPER_ONLY,  # balls that touched come DEEPER, but no time before at which they meet was found
+) = range(7)
+"""How a search ended; up to OUT_OF_STEPS and at DEEPER_ONLY there is a time."""
+
+
+class Root(NamedTuple):
+    """Outcome of a search: ``time`` (s), NaN if there is no contact, and how it ended."""
+
+    time: float
+    ended: int
 
 
 @small_kernel
 def least_curvature(c0, c1, c2, start, end):
     """Least value of c0 + c1 t + c2 t^2 on [start, end], for c2 >= 0."""
-    if c1 + 2.0 * c2 * start >= 0.0:
+    if c1 + 2.0 * c2 * start >= 0.0:  # rising from the start on
         return c0 + start * (c1 + start * c2)
-    if c1 + 2.0 * c2 * end <= 0.0:
+    if c1 + 2.0 * c2 * end <= 0.0:  # falling to the end
         return c0 + end * (c1 + end * c2)
-    return c0 - 0.25 * c1 * c1 / c2
+    return c0 - 0.25 * c1 * c1 / c2  # the vertex, t = -c1 / 2 c2
 
 
 @small_kernel
 def first_step(f, slope, curvature):
-    """First h >= 0 at which f + slope h + curvature h^2 / 2 reaches 0, for f >= 0; infinity if never."""
+    """First h >= 0 at which f + slope h + curvature h^2 / 2 reaches 0, for f >= 0; infinity if never.
+
+    Of the two forms of the root, each branch takes the one that adds numbers of one sign: nothing cancels.
+    """
     if slope >= 0.0 and curvature >= 0.0:
         return math.inf
     inside = slope * slope - 2.0 * curvature * f
@@ -35,13 +66,16 @@ def first_step(f, slope, curvature):
 
 
 @kernel
-def first_root(cx, cy, bx, by, ax, ay, t_max, limit, squared):
-    """Earliest t in [0, t_max] at which |c + b t + a t^2|^2 falls through ``squared``; NaN if none.
+def first_root(path, t_max, limit, squared):
+    """Earliest t in [0, t_max] at which |c + b t + a t^2|^2 falls through ``squared``, a Root.
 
     Starts outside (f >= 0, at the start possibly 0 while opening). Steps depend on ``t_max`` alone, so that the bits
-    of a root do not depend on what else is known; the search ends early, with NaN, beyond ``limit``.
+    of a root do not depend on what else is known; the search ends early, LATER, beyond ``limit``.
     """
+    cx, cy, bx, by, ax, ay = path
     t = 0.0
+    # f = d.d - D^2 with d = c + b t + a t^2; f' = 2 d.d'; f'' = 2 d'.d' + 2 d.d'' with d' = b + 2 a t, d'' = 2 a:
+    # f'' = 2 b.b + 4 a.c + 12 (a.b) t + 12 (a.a) t^2 (eq. 23)
     c0 = 2.0 * (bx * bx + by * by) + 4.0 * (ax * cx + ay * cy)
     c1 = 12.0 * (ax * bx + ay * by)
     c2 = 12.0 * (ax * ax + ay * ay)
@@ -53,63 +87,67 @@ def first_root(cx, cy, bx, by, ax, ay, t_max, limit, squared):
         slope = 2.0 * (dx * (bx + 2.0 * ax * t) + dy * (by + 2.0 * ay * t))
         if f <= ROOT_RESIDUAL and step > 0:
             # Past the root only by rounding: a first step that ends at a graze keeps half the digits.
-            return t - f / slope if f < -ROOT_RESIDUAL and slope < 0.0 else t
+            return Root(t - f / slope if f < -ROOT_RESIDUAL and slope < 0.0 else t, MEETS)
         f = max(f, 0.0)
         h = first_step(f, slope, least_curvature(c0, c1, c2, t, min(t + reach, t_max)))
         if h > reach:
             # Nothing within reach: proved. Look at the rest.
             if t + reach >= t_max:
-                return math.nan
+                return Root(math.nan, NEVER)
             t = t + reach
             reach = t_max - t
             continue
-        if t + h > t_max or t + h > limit:
-            return math.nan
+        if t + h > t_max:
+            return Root(math.nan, NEVER)
+        if t + h > limit:
+            return Root(math.nan, LATER)
         if t + h == t:
-            return t
+            return Root(t, STALLED)
         t = t + h
         if step > 0:
             # The bound is slack on a long interval; a graze converges far faster on a short one.
             reach = 4.0 * h
-    return t
+    return Root(t, OUT_OF_STEPS)
 
 
 @kernel
-def settled_root(cx, cy, bx, by, ax, ay, t_max, limit, diameter):
+def settled_root(path, t_max, limit, diameter):
     """``first_root`` for balls that touch at the start without approaching or opening.
 
     f(0) = f'(0) = 0 up to rounding would be "time 0 again" for ever. So the contact looked for is DEEPER than they are;
-    from there it is walked back to where the balls, having parted, meet.
+    from there it is walked back, by Newton's steps, to where the balls, having parted, meet.
     """
+    cx, cy, bx, by, ax, ay = path
     distance = math.sqrt(cx * cx + cy * cy)
     met = min(distance, diameter)
     deeper = met - DEEPER
-    t = first_root(cx, cy, bx, by, ax, ay, t_max, limit, deeper * deeper)
-    if t != t:
-        return t
-    back = t
-    for _ in range(8):
+    found = first_root(path, t_max, limit, deeper * deeper)
+    if found.time != found.time:
+        return found
+    back = found.time
+    for _ in range(SETTLED_STEPS):
         dx = cx + back * (bx + back * ax)
         dy = cy + back * (by + back * ay)
         slope = 2.0 * (dx * (bx + 2.0 * ax * back) + dy * (by + 2.0 * ay * back))
         f = dx * dx + dy * dy - met * met
         if abs(f) <= ROOT_RESIDUAL and slope < 0.0:
-            return back
+            return Root(back, MEETS)
         if slope >= 0.0:
-            return t
+            break
         back = back - f / slope
         if back <= 0.0:
-            return t
-    return t
+            break
+    return Root(found.time, DEEPER_ONLY)
 
 
 @kernel
-def contact(cx, cy, bx, by, ax, ay, t_max, limit, diameter):
-    """Earliest t in [0, t_max] at which two balls meet; NaN if none, or none up to ``limit``.
+def contact(path, t_max, limit, diameter):
+    """Earliest t in [0, t_max] at which two balls meet, a Root; LATER if not up to ``limit``.
 
-    c (m), b (m/s), a (m/s^2, half the relative acceleration): path of one ball's centre seen from the other. Cases:
-    apart; touching and approaching (0), opening, or neither; overlapping balls meet where they overlap as much again.
+    ``path``: of one ball's centre seen from the other. Cases: touching and approaching (0), neither, or opening;
+    apart. Overlapping balls meet where they overlap as much again.
     """
+    cx, cy, bx, by, _, _ = path
     squared = cx * cx + cy * cy
     reached = diameter * diameter
     near = diameter + TOUCH
@@ -117,8 +155,14 @@ def contact(cx, cy, bx, by, ax, ay, t_max, limit, diameter):
         distance = math.sqrt(squared)
         opening = (cx * bx + cy * by) / distance
         if opening < -SLOW_APPROACH and distance <= diameter:
-            return 0.0
+            return Root(0.0, AT_ONCE)
         if abs(opening) <= SLOW_APPROACH:
-            return settled_root(cx, cy, bx, by, ax, ay, t_max, limit, diameter)
+            return settled_root(path, t_max, limit, diameter)
         reached = min(squared, reached)
-    return first_root(cx, cy, bx, by, ax, ay, t_max, limit, reached)
+    return first_root(path, t_max, limit, reached)
+
+
+@kernel
+def contact_time(path, t_max, diameter):
+    """Time of ``contact``, searched to the end."""
+    return contact(path, t_max, t_max, diameter).time

@@ -6,16 +6,37 @@ the pocket. Where a ball's centre may not be is the jaw dilated by the contact d
 and facing, and the *whole* disc of r + rho about the horn's centre. The disc needs no bounds, for what is hidden of it
 lies inside the strips; so rounding where a strip ends finds the disc an ulp later, never nothing.
 
-A piece is found by its first falling root: the gap goes from >= 0 to below. ``jaw`` is (nose_end, r, s and d of the
-facing's start, s and d of its normal, its length), ``rho`` the contact distance in plan, all in m.
+A piece is found by its first falling root: the gap goes from >= 0 to below. ``rho`` is
+the contact distance in plan; paths are in jaw coordinates, x for s and y for d.
 """
 
 import math
+from typing import NamedTuple
 
-from physics.kernels.compiling import kernel, small_kernel
+from physics.kernels.compiling import small_kernel
 from physics.kernels.detect.contact import contact, first_root
 from physics.kernels.detect.line import crossing
+from physics.kernels.path import Path, along
 from physics.kernels.tolerances import DEEPER, SLOW_APPROACH, TOUCH
+
+
+class Jaw(NamedTuple):
+    """A jaw in its coordinates, m: see ``physics.mouths``."""
+
+    nose_end: float
+    horn: float
+    start_s: float
+    start_d: float
+    normal_s: float
+    normal_d: float
+    length: float
+
+
+@small_kernel
+def from_facing(jaw, s, d):
+    """(distance from a facing's line, place along it into the pocket) of a centre, m."""
+    at_s, at_d = s - jaw.start_s, d - jaw.start_d
+    return at_s * jaw.normal_s + at_d * jaw.normal_d, at_d * jaw.normal_s - at_s * jaw.normal_d
 
 
 @small_kernel
@@ -34,7 +55,7 @@ def falling(gap, speed, half):
 
 @small_kernel
 def falling_from_touch(gap, speed, half, lasts):
-    """``falling`` for a line that the ball touches now: within TOUCH of it.
+    """``falling`` for a line that the ball touches now: within TOUCH of it, or in it by a rounded place.
 
     Approaching it meets where it is, and opening it meets where it has come back to. Doing neither it is looked for
     DEEPER, and meets where it has come back to, if it parts at all.
@@ -48,40 +69,32 @@ def falling_from_touch(gap, speed, half, lasts):
 
 
 @small_kernel
-def meets_facing(jaw, rho, s, d, vs, vd, hs, hd, lasts):
+def meets_facing(jaw, rho, path, lasts):
     """First t in [0, ``lasts``] at which a path meets a facing between its ends; infinity if never."""
-    _, _, start_s, start_d, normal_s, normal_d, length = jaw
-    gap = (s - start_s) * normal_s + (d - start_d) * normal_d - rho
-    speed = -(vs * normal_s + vd * normal_d)
-    half = -(hs * normal_s + hd * normal_d)
-    t = falling_from_touch(gap, speed, half, lasts) if abs(gap) <= TOUCH else falling(gap, speed, half)
+    distance, foot = from_facing(jaw, path.x, path.y)
+    gap = distance - rho
+    speed = -(path.vx * jaw.normal_s + path.vy * jaw.normal_d)
+    half = -(path.hx * jaw.normal_s + path.hy * jaw.normal_d)
+    beside = (foot >= 0.0) & (foot <= jaw.length)
+    touching = (abs(gap) <= TOUCH) | (beside & (gap < 0.0))
+    t = falling_from_touch(gap, speed, half, lasts) if touching else falling(gap, speed, half)
     if not t <= lasts:
         return math.inf
-    foot_s = s + t * (vs + t * hs) - start_s
-    foot_d = d + t * (vd + t * hd) - start_d
-    foot = foot_d * normal_s - foot_s * normal_d  # along (-normal_d, normal_s), into the pocket
-    return t if 0.0 <= foot <= length else math.inf
+    _, foot = from_facing(jaw, along(path.x, path.vx, path.hx, t), along(path.y, path.vy, path.hy, t))
+    return t if 0.0 <= foot <= jaw.length else math.inf
 
 
 @small_kernel
-def meets_horn(jaw, rho, s, d, vs, vd, hs, hd, lasts, limit):
+def meets_horn(jaw, rho, path, lasts, limit):
     """First t in [0, ``lasts``] at which a path meets a horn; NaN if none, or none up to ``limit``."""
-    nose_end, radius = jaw[0], jaw[1]
-    return contact(s - nose_end, d + radius, vs, vd, hs, hd, lasts, limit, radius + rho)
+    from_centre = Path(path.x - jaw.nose_end, path.y + jaw.horn, path.vx, path.vy, path.hx, path.hy)
+    return contact(from_centre, lasts, limit, jaw.horn + rho).time
 
 
 @small_kernel
-def drops(x, y, vx, vy, hx, hy, radius, lasts, limit):
-    """First t in [0, ``lasts``] at which the centre, (x, y) from the hole's, comes over the drop edge; NaN if none."""
+def drops(path, radius, lasts, limit):
+    """First t in [0, ``lasts``] at which a centre comes over the drop edge, ``path`` from the hole's; NaN if none."""
     squared = radius * radius
-    if x * x + y * y < squared:
+    if path.x * path.x + path.y * path.y < squared:
         return 0.0
-    return first_root(x, y, vx, vy, hx, hy, lasts, limit, squared)
-
-
-@kernel
-def gap_to_facing(jaw, s, d):
-    """(gap, foot) of a centre from a facing: distance from its line and place along it, m."""
-    _, _, start_s, start_d, normal_s, normal_d, _ = jaw
-    at_s, at_d = s - start_s, d - start_d
-    return at_s * normal_s + at_d * normal_d, at_d * normal_s - at_s * normal_d
+    return first_root(path, lasts, limit, squared).time

@@ -1,15 +1,30 @@
 """Two balls alone (docs/physics.md, eq. 12-19): the consistent law and the historical one."""
 
 import math
+from typing import NamedTuple
 
-from physics.kernels.compiling import kernel, load, small_kernel, store
-from physics.kernels.layout import P_E_BALL, P_MU_BALL, P_PER_RADIUS, P_RADIUS, VX, VY, WX, WY, WZ, X, Y
+from physics.kernels import layout as at
+from physics.kernels.compiling import kernel, load, load_integer, plain, small_kernel, store
+from physics.kernels.motion import moves
 
 HISTORICAL_FRICTION = 0.01
 """The historical engine's factor k |B| / v_n."""
 
 HISTORICAL_RADIUS = 1.000575
 """The historical engine's factor on R in the spin it transfers."""
+
+
+class Touch(NamedTuple):
+    """Two touching balls.
+
+    Attributes:
+        i, j: their numbers. nx, ny: unit normal n from i to j.
+    """
+
+    i: int
+    j: int
+    nx: float
+    ny: float
 
 
 @small_kernel
@@ -19,85 +34,102 @@ def add(memory, index, value):
 
 
 @small_kernel
-def normal(w, i, j):
-    """Unit vector from ball i to ball j, and their distance in m."""
-    dx = load(w, X + j) - load(w, X + i)
-    dy = load(w, Y + j) - load(w, Y + i)
+def touch_of(s, i, j):
+    """Two balls that touch, where they lie."""
+    dx = load(s.w, at.X + j) - load(s.w, at.X + i)
+    dy = load(s.w, at.Y + j) - load(s.w, at.Y + i)
     distance = math.sqrt(dx * dx + dy * dy)
-    return dx / distance, dy / distance, distance
+    return Touch(i, j, dx / distance, dy / distance)
 
 
 @small_kernel
-def approach(w, i, j, nx, ny):
-    """Normal speed at which j and i near each other, m/s; (nx, ny) is the unit vector from i to j."""
-    return (load(w, VX + i) - load(w, VX + j)) * nx + (load(w, VY + i) - load(w, VY + j)) * ny
+def turned(touch):
+    """The same two balls, the other one first."""
+    return Touch(touch.j, touch.i, -touch.nx, -touch.ny)
 
 
 @small_kernel
-def rub(p, w, i, j, nx, ny, normal_change, share, shift):
+def approach(s, touch):
+    """Normal speed at which two balls near each other, m/s: (v_i - v_j).n."""
+    i, j, nx, ny = touch
+    along_x = (load(s.w, at.VX + i) - load(s.w, at.VX + j)) * nx
+    return along_x + (load(s.w, at.VY + i) - load(s.w, at.VY + j)) * ny
+
+
+@small_kernel
+def part(s, touch, change, shift):
+    """Push two balls apart along the normal, each by ``change`` (m/s): v_i -= change n, v_j += change n (eq. 13).
+
+    Added to the rows ``shift`` behind the velocities and spins: 0 for these themselves.
+    """
+    i, j, nx, ny = touch
+    add(s.w, shift + at.VX + i, -change * nx)
+    add(s.w, shift + at.VY + i, -change * ny)
+    add(s.w, shift + at.VX + j, change * nx)
+    add(s.w, shift + at.VY + j, change * ny)
+
+
+@small_kernel
+def rub(s, touch, normal_change, share, shift):
     """Friction of one contact whose normal impulse changes each ball's velocity by ``normal_change`` (m/s).
 
     Impulse against the slip v1 - v2 - R n x (w1 + w2), of size min(mu J_n, m |slip| / (7 share)) over m; both
-    spins change in the same sense, the vertical velocity is absorbed (eq. 15-17). Changes are added to the rows
-    ``shift`` behind the velocities and spins: 0 for these themselves.
+    spins change in the same sense, the vertical velocity is absorbed (eq. 14-17). Changes go to the rows ``shift``
+    behind the velocities and spins.
     """
-    radius = load(p, P_RADIUS)
-    spin_x = load(w, WX + i) + load(w, WX + j)
-    spin_y = load(w, WY + i) + load(w, WY + j)
-    spin_z = load(w, WZ + i) + load(w, WZ + j)
+    i, j, nx, ny = touch
+    radius = load(s.p, at.P_RADIUS)
+    spin_x = load(s.w, at.WX + i) + load(s.w, at.WX + j)
+    spin_y = load(s.w, at.WY + i) + load(s.w, at.WY + j)
+    spin_z = load(s.w, at.WZ + i) + load(s.w, at.WZ + j)
     # along t = k x n = (-ny, nx), and vertical; n x w = (ny wz, -nx wz, nx wy - ny wx)
-    slip_t = (load(w, VY + i) - load(w, VY + j)) * nx - (load(w, VX + i) - load(w, VX + j)) * ny
+    slip_t = (load(s.w, at.VY + i) - load(s.w, at.VY + j)) * nx - (load(s.w, at.VX + i) - load(s.w, at.VX + j)) * ny
     slip_t = slip_t + radius * spin_z
     slip_z = radius * (ny * spin_x - nx * spin_y)
     slip = math.sqrt(slip_t * slip_t + slip_z * slip_z)
     if slip == 0.0:
         return
-    size = min(load(p, P_MU_BALL) * normal_change, slip / (7.0 * share))
+    # An impulse J_t changes the slip by J_t / m for each ball's speed and by R (R J_t) / I = 5 J_t / 2m for each
+    # ball's spin, 7 J_t / m together: m |slip| / 7 ends it.
+    size = min(load(s.p, at.P_MU_BALL) * normal_change, slip / (7.0 * share))
     part_of_slip = size / slip
     push_t = part_of_slip * slip_t
     push_z = part_of_slip * slip_z
-    add(w, shift + VX + i, push_t * ny)
-    add(w, shift + VY + i, -push_t * nx)
-    add(w, shift + VX + j, -push_t * ny)
-    add(w, shift + VY + j, push_t * nx)
-    # the same turn for both: -5/(2R) n x s with s = push_t t + push_z k
-    turn = -2.5 * load(p, P_PER_RADIUS)
+    add(s.w, shift + at.VX + i, push_t * ny)
+    add(s.w, shift + at.VY + i, -push_t * nx)
+    add(s.w, shift + at.VX + j, -push_t * ny)
+    add(s.w, shift + at.VY + j, push_t * nx)
+    # the same turn for both: -5/(2R) n x s with s = push_t t + push_z k, n x t = k, n x k = (ny, -nx)
+    turn = -2.5 * load(s.p, at.P_PER_RADIUS)
     for ball in (i, j):
-        add(w, shift + WX + ball, turn * push_z * ny)
-        add(w, shift + WY + ball, -turn * push_z * nx)
-        add(w, shift + WZ + ball, turn * push_t)
+        add(s.w, shift + at.WX + ball, turn * push_z * ny)
+        add(s.w, shift + at.WY + ball, -turn * push_z * nx)
+        add(s.w, shift + at.WZ + ball, turn * push_t)
 
 
 @small_kernel
-def part(w, i, j, nx, ny, change, shift):
-    """Push i and j apart along the normal, each by ``change`` (m/s)."""
-    add(w, shift + VX + i, -change * nx)
-    add(w, shift + VY + i, -change * ny)
-    add(w, shift + VX + j, change * nx)
-    add(w, shift + VY + j, change * ny)
-
-
-@small_kernel
-def collide(p, w, i, j, nx, ny, closing):
-    """Two balls of equal mass approaching at ``closing`` (m/s): normal impulse (1 + e)/2 m v_n, then friction."""
-    change = 0.5 * (1.0 + load(p, P_E_BALL)) * closing
-    part(w, i, j, nx, ny, change, 0)
-    rub(p, w, i, j, nx, ny, change, 1.0, 0)
+def collide(s, touch, closing):
+    """Two balls of equal mass approaching at ``closing`` (m/s): J_n = (1 + e)/2 m v_n (eq. 12), then friction."""
+    change = 0.5 * (1.0 + load(s.p, at.P_E_BALL)) * closing
+    part(s, touch, change, 0)
+    rub(s, touch, change, 1.0, 0)
 
 
 @kernel
-def collide_historically(p, w, i, j, nx, ny, j_rests):
+def collide_historically(s, touch, j_rests):
     """The law of FastFiz 0.2, faults included; ball i moves. Eq. 18-19.
 
-    ``j_rests`` (0 or 1): ball j neither moves nor spins; then spin is transferred with opposite signs, else both are
-    set to natural roll.
+    ``j_rests`` (0 or 1): ball j stays where it is, whether or not it spins there; then spin is transferred with
+    opposite signs, else both are set to natural roll.
     """
-    radius = load(p, P_RADIUS)
+    i, j, nx, ny = touch
+    radius = load(s.p, at.P_RADIUS)
     tx, ty = -ny, nx
-    v1x, v1y, v2x, v2y = load(w, VX + i), load(w, VY + i), load(w, VX + j), load(w, VY + j)
-    spin_x = load(w, WX + i) + load(w, WX + j)
-    spin_y = load(w, WY + i) + load(w, WY + j)
-    spin_z = load(w, WZ + i) + load(w, WZ + j)
+    v1x, v1y, v2x, v2y = load(s.w, at.VX + i), load(s.w, at.VY + i), load(s.w, at.VX + j), load(s.w, at.VY + j)
+    spin_x = load(s.w, at.WX + i) + load(s.w, at.WX + j)
+    spin_y = load(s.w, at.WY + i) + load(s.w, at.WY + j)
+    spin_z = load(s.w, at.WZ + i) + load(s.w, at.WZ + j)
+    # B = v1 - v2 - R n x (w1 + w2), its normal part included
     bx = v1x - v2x - radius * ny * spin_z
     by = v1y - v2y + radius * nx * spin_z
     bz = -radius * (nx * spin_y - ny * spin_x)
@@ -108,22 +140,34 @@ def collide_historically(p, w, i, j, nx, ny, j_rests):
     b_t = bx * tx + by * ty
     v1t = v1x * tx + v1y * ty - k * b_t
     v2t = v2x * tx + v2y * ty + k * b_t
-    store(w, VX + i, v2n * nx + v1t * tx)
-    store(w, VY + i, v2n * ny + v1t * ty)
-    store(w, VX + j, v1n * nx + v2t * tx)
-    store(w, VY + j, v1n * ny + v2t * ty)
+    store(s.w, at.VX + i, v2n * nx + v1t * tx)
+    store(s.w, at.VY + i, v2n * ny + v1t * ty)
+    store(s.w, at.VX + j, v1n * nx + v2t * tx)
+    store(s.w, at.VY + j, v1n * ny + v2t * ty)
     if j_rests != 0:
+        # D = -(2.5 k / (1.000575 R)) n x B
         turn = -2.5 * k / (HISTORICAL_RADIUS * radius)
         turn_x = turn * ny * bz
         turn_y = -turn * nx * bz
         turn_z = turn * (nx * by - ny * bx)
-        store(w, WX + j, load(w, WX + j) + turn_x)
-        store(w, WY + j, load(w, WY + j) + turn_y)
-        store(w, WZ + j, load(w, WZ + j) + turn_z)
-        store(w, WX + i, load(w, WX + i) - turn_x)
-        store(w, WY + i, load(w, WY + i) - turn_y)
-        store(w, WZ + i, load(w, WZ + i) - turn_z)
+        store(s.w, at.WX + j, load(s.w, at.WX + j) + turn_x)
+        store(s.w, at.WY + j, load(s.w, at.WY + j) + turn_y)
+        store(s.w, at.WZ + j, load(s.w, at.WZ + j) + turn_z)
+        store(s.w, at.WX + i, load(s.w, at.WX + i) - turn_x)
+        store(s.w, at.WY + i, load(s.w, at.WY + i) - turn_y)
+        store(s.w, at.WZ + i, load(s.w, at.WZ + i) - turn_z)
     else:
         for ball in (i, j):
-            store(w, WX + ball, -load(w, VY + ball) / radius)
-            store(w, WY + ball, load(w, VX + ball) / radius)
+            store(s.w, at.WX + ball, -load(s.w, at.VY + ball) / radius)
+            store(s.w, at.WY + ball, load(s.w, at.VX + ball) / radius)
+
+
+@small_kernel
+def push_alone(s, touch, closing):
+    """The collision of two balls that share it with no other, by the table's law."""
+    if load(s.p, at.P_HISTORICAL) == 0.0:
+        collide(s, touch, closing)
+    elif moves(load_integer(s.k, at.MOTION + touch.i)):
+        collide_historically(s, touch, int(not moves(load_integer(s.k, at.MOTION + touch.j))))
+    else:
+        collide_historically(s, turned(touch), plain(1))

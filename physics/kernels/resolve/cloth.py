@@ -2,109 +2,96 @@
 
 import math
 
-from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store, store_integer
-from physics.kernels.layout import (
-    END,
-    HX,
-    HY,
-    MOTION,
-    P_HISTORICAL,
-    P_NO_SLIP,
-    P_PER_RADIUS,
-    P_RADIUS,
-    P_ROLL,
-    P_ROLL_LASTS,
-    P_SLIDE,
-    P_SLIDE_LASTS,
-    P_SPIN_LASTS,
-    ROLLING,
-    ROLLING_SPINNING,
-    ROLLING_STATIONARY,
-    SINCE,
-    SLIDING,
-    SLIDING_ROLLING,
-    SLIDING_SPINNING,
-    SLIDING_STATIONARY,
-    SPINNING,
-    SPINNING_STATIONARY,
-    STATIONARY,
-    VX,
-    VY,
-    WX,
-    WY,
-    WZ,
-)
+from physics.kernels import layout as at
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store, store_integer
 
 
 @small_kernel
-def classify(p, vx, vy, wx, wy, wz):
-    """Motion state of a ball on the cloth from its velocity and spin."""
-    limit = load(p, P_NO_SLIP)
-    radius = load(p, P_RADIUS)
-    ux = vx - radius * wy
-    uy = vy + radius * wx
+def classify(s, i):
+    """Motion state of ball ``i`` on the cloth from its velocity and spin (eq. 10-11)."""
+    limit = load(s.p, at.P_NO_SLIP)
+    radius = load(s.p, at.P_RADIUS)
+    vx, vy = load(s.w, at.VX + i), load(s.w, at.VY + i)
+    # u = v + R k x w, of the lowest point
+    ux = vx - radius * load(s.w, at.WY + i)
+    uy = vy + radius * load(s.w, at.WX + i)
     moves = vx * vx + vy * vy > limit * limit
     slips = ux * ux + uy * uy > limit * limit
-    if slips and (moves or load(p, P_HISTORICAL) == 0.0):
-        return SLIDING
+    if slips and (moves or load(s.p, at.P_HISTORICAL) == 0.0):
+        return at.SLIDING
     if moves:
-        return ROLLING
-    if wz != 0.0:
-        return SPINNING
-    return STATIONARY
+        return at.ROLLING
+    if load(s.w, at.WZ + i) != 0.0:
+        return at.SPINNING
+    return at.STATIONARY
 
 
 @small_kernel
-def begin(p, w, k, i, motion):
+def begin(s, i, motion):
     """Put ball ``i``, anchored where it is, into ``motion``: its acceleration and the time the state ends."""
-    store_integer(k, MOTION + i, motion)
+    store_integer(s.k, at.MOTION + i, motion)
     hx = 0.0
     hy = 0.0
     lasts = math.inf
-    if motion == SLIDING:
-        radius = load(p, P_RADIUS)
-        ux = load(w, VX + i) - radius * load(w, WY + i)
-        uy = load(w, VY + i) + radius * load(w, WX + i)
+    if motion == at.SLIDING:
+        # a = -mu g u / |u|, and |u| falls at 7/2 mu g: T = 2 |u| / 7 mu g (eq. 5-7)
+        radius = load(s.p, at.P_RADIUS)
+        ux = load(s.w, at.VX + i) - radius * load(s.w, at.WY + i)
+        uy = load(s.w, at.VY + i) + radius * load(s.w, at.WX + i)
         slip = math.sqrt(ux * ux + uy * uy)
-        pull = -0.5 * load(p, P_SLIDE) / slip
+        pull = -0.5 * load(s.p, at.P_SLIDE) / slip
         hx = pull * ux
         hy = pull * uy
-        lasts = slip * load(p, P_SLIDE_LASTS)
-    elif motion == ROLLING:
-        vx = load(w, VX + i)
-        vy = load(w, VY + i)
-        store(w, WX + i, -vy * load(p, P_PER_RADIUS))
-        store(w, WY + i, vx * load(p, P_PER_RADIUS))
+        lasts = slip * load(s.p, at.P_SLIDE_LASTS)
+    elif motion == at.ROLLING:
+        # a = -mu_r g v / |v|, T = |v| / mu_r g (eq. 8)
+        vx = load(s.w, at.VX + i)
+        vy = load(s.w, at.VY + i)
+        store(s.w, at.WX + i, -vy * load(s.p, at.P_PER_RADIUS))
+        store(s.w, at.WY + i, vx * load(s.p, at.P_PER_RADIUS))
         speed = math.sqrt(vx * vx + vy * vy)
-        pull = -0.5 * load(p, P_ROLL) / speed
+        pull = -0.5 * load(s.p, at.P_ROLL) / speed
         hx = pull * vx
         hy = pull * vy
-        lasts = speed * load(p, P_ROLL_LASTS)
+        lasts = speed * load(s.p, at.P_ROLL_LASTS)
     else:
-        store(w, VX + i, 0.0)
-        store(w, VY + i, 0.0)
-        store(w, WX + i, 0.0)
-        store(w, WY + i, 0.0)
-        if motion == SPINNING:
-            lasts = abs(load(w, WZ + i)) * load(p, P_SPIN_LASTS)
-    store(w, HX + i, hx)
-    store(w, HY + i, hy)
-    store(w, END + i, load(w, SINCE + i) + lasts)
+        store(s.w, at.VX + i, 0.0)
+        store(s.w, at.VY + i, 0.0)
+        store(s.w, at.WX + i, 0.0)
+        store(s.w, at.WY + i, 0.0)
+        if motion == at.SPINNING:
+            lasts = abs(load(s.w, at.WZ + i)) * load(s.p, at.P_SPIN_LASTS)  # eq. 9
+    store(s.w, at.HX + i, hx)
+    store(s.w, at.HY + i, hy)
+    store(s.w, at.END + i, load(s.w, at.SINCE + i) + lasts)
+
+
+@small_kernel
+def restate(s, changed):
+    """Give each ball whose velocity changed the motion state its velocity and spin call for.
+
+    The others keep theirs: one that is about to end its state does so by an event of its own.
+    """
+    rest = changed
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        begin(s, i, classify(s, i))
 
 
 @kernel
-def transition(p, w, k, i):
+def transition(s, i):
     """End the motion state of ball ``i``, already advanced to the end of it; the kind of event it is."""
-    motion = load_integer(k, MOTION + i)
-    spins = load(w, WZ + i) != 0.0
-    vx, vy, limit = load(w, VX + i), load(w, VY + i), load(p, P_NO_SLIP)
-    if motion == SLIDING and vx * vx + vy * vy > limit * limit:
-        after, event = ROLLING, SLIDING_ROLLING
-    elif motion != SPINNING and spins:
-        after, event = SPINNING, SLIDING_SPINNING if motion == SLIDING else ROLLING_SPINNING
+    motion = load_integer(s.k, at.MOTION + i)
+    spins = load(s.w, at.WZ + i) != 0.0
+    vx, vy, limit = load(s.w, at.VX + i), load(s.w, at.VY + i), load(s.p, at.P_NO_SLIP)
+    if motion == at.SLIDING and vx * vx + vy * vy > limit * limit:
+        after, event = at.ROLLING, at.SLIDING_ROLLING
+    elif motion != at.SPINNING and spins:
+        after, event = at.SPINNING, at.SLIDING_SPINNING if motion == at.SLIDING else at.ROLLING_SPINNING
     else:
-        store(w, WZ + i, 0.0)
-        event = SLIDING_STATIONARY if motion == SLIDING else SPINNING_STATIONARY
-        after, event = STATIONARY, ROLLING_STATIONARY if motion == ROLLING else event
-    begin(p, w, k, i, after)
+        store(s.w, at.WZ + i, 0.0)
+        event = at.SLIDING_STATIONARY if motion == at.SLIDING else at.SPINNING_STATIONARY
+        after, event = at.STATIONARY, at.ROLLING_STATIONARY if motion == at.ROLLING else event
+    begin(s, i, after)
     return event

@@ -11,128 +11,83 @@ Nothing looks at ball numbers, left or right. Every round parts what approached 
 left alone meets at most once in REST_TIME: it ends.
 """
 
+from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store_integer
-from physics.kernels.layout import (
-    BALL_COLLISION,
-    CLOSING,
-    CONTACT,
-    CONTACT_SEEN,
-    FROZEN,
-    FROZEN_BALLS,
-    HX,
-    HY,
-    N_PAIRS,
-    P_REST_TIME,
-    P_SLIDE,
-    PAIRS,
-    RAIL_COLLISION,
-    VX,
-    VY,
-    WX,
-    WY,
-    WZ,
-)
-from physics.kernels.recording import CUE_BALL, note_contact, note_cushion, record
-from physics.kernels.resolve.ball_ball import approach, normal
-from physics.kernels.resolve.cloth import begin, classify
-from physics.kernels.resolve.cushion import hold, rebound, stop
-from physics.kernels.resolve.impulses import push_alone, push_pairs, settle_slow_pairs
+from physics.kernels.recording import note_contact, note_cushion, record
+from physics.kernels.resolve.ball_ball import approach, push_alone, touch_of
+from physics.kernels.resolve.cloth import restate
+from physics.kernels.resolve.cushion import hold, rebound, stop, towards_cushion
+from physics.kernels.resolve.impulses import push_pairs, settle_slow_pairs
 from physics.kernels.resolve.resting import energy, lay_still, part_pressed_pairs, returns_at_once, scale_down
-from physics.kernels.resolve.touching import (
-    NO_CUSHION,
-    bring,
-    gather,
-    neighbours,
-    neighbours_of_two,
-    touched_cushion,
-    towards_cushion,
-)
+from physics.kernels.resolve.touching import bring, gather, neighbours, neighbours_of_two, pair, touched_cushion
 from physics.kernels.tolerances import ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION, STOP_BELOW
 
-FAILED = -1
+UNSETTLED = -1
 """Returned instead of a bit set when ROUND_LIMIT was reached."""
 
-NOBODY = -1
-"""In place of a ball's number."""
-
-
-@small_kernel
-def restate(p, w, k, changed):
-    """Give each ball whose velocity changed the motion state its velocity and spin call for.
-
-    The others keep theirs: one that is about to end its state does so by an event of its own.
-    """
-    rest = changed
-    while rest != 0:
-        i = lowest_bit(rest)
-        rest &= rest - 1
-        motion = classify(p, load(w, VX + i), load(w, VY + i), load(w, WX + i), load(w, WY + i), load(w, WZ + i))
-        begin(p, w, k, i, motion)
-
 
 @kernel
-def free_from_cushions(w, k, members):
+def free_from_cushions(s, members):
     """Forget that a ball was frozen to a cushion at the start once it is leaving it."""
-    rest = members & load_integer(k, FROZEN_BALLS)
+    rest = members & load_integer(s.k, at.FROZEN_BALLS)
     while rest != 0:
         i = lowest_bit(rest)
         rest &= rest - 1
-        cushion = load_integer(k, FROZEN + i)
-        speed = towards_cushion(w, cushion, VX, VY, i)
-        if speed < 0.0 or (speed == 0.0 and towards_cushion(w, cushion, HX, HY, i) < 0.0):
-            store_integer(k, FROZEN_BALLS, load_integer(k, FROZEN_BALLS) & ~(1 << i))
+        cushion = load_integer(s.k, at.FROZEN + i)
+        speed = towards_cushion(s, cushion, at.VX, i)
+        if speed < 0.0 or (speed == 0.0 and towards_cushion(s, cushion, at.HX, i) < 0.0):
+            store_integer(s.k, at.FROZEN_BALLS, load_integer(s.k, at.FROZEN_BALLS) & ~(1 << i))
 
 
 @small_kernel
-def report_collision(p, w, k, facts, facts_float, trace, i, j, first, time):
+def report_collision(s, i, j, first, time):
     """Record a collision; ``first``: the cue ball had struck nothing before this round."""
-    event = record(w, k, trace, time, plain(BALL_COLLISION), i, j)
-    if i == CUE_BALL and first:
-        store_integer(k, CONTACT_SEEN, 1)
-        note_contact(p, w, facts, facts_float, j, event)
+    event = record(s, time, plain(at.BALL_COLLISION), i, j)
+    if i == at.CUE_BALL and first:
+        store_integer(s.k, at.CONTACT_SEEN, 1)
+        note_contact(s, j, event)
 
 
 @kernel
-def report_collisions(p, w, k, facts, facts_float, trace, time):
+def report_collisions(s, time):
     """Record the pairs that acted in this round, with the states after it; bit set of the balls involved."""
     involved = 0
-    first = load_integer(k, CONTACT_SEEN) == 0
-    for n in range(load_integer(k, N_PAIRS)):
-        if load(w, CLOSING + n) > 0.0:
-            pair = load_integer(k, PAIRS + n)
-            i, j = pair >> 4, pair & 15
-            report_collision(p, w, k, facts, facts_float, trace, i, j, first, time)
+    first = load_integer(s.k, at.CONTACT_SEEN) == 0
+    for n in range(load_integer(s.k, at.N_PAIRS)):
+        if load(s.w, at.CLOSING + n) > 0.0:
+            i, j = pair(s, n)
+            report_collision(s, i, j, first, time)
             involved |= 1 << i | 1 << j
     return involved
 
 
 @small_kernel
-def rebound_and_report(p, w, k, facts, trace, i, cushion, time):
+def rebound_and_report(s, i, cushion, time):
     """A rail collision of ball ``i``, recorded."""
-    rebound(p, w, i, cushion)
-    restate(p, w, k, 1 << i)
-    event = record(w, k, trace, time, plain(RAIL_COLLISION), i, cushion)
-    if not (load_integer(k, FROZEN_BALLS) >> i & 1 and load_integer(k, FROZEN + i) == cushion):
-        note_cushion(k, facts, i, event)
+    rebound(s, i, cushion)
+    restate(s, 1 << i)
+    event = record(s, time, plain(at.RAIL_COLLISION), i, cushion)
+    if not (load_integer(s.k, at.FROZEN_BALLS) >> i & 1 and load_integer(s.k, at.FROZEN + i) == cushion):
+        note_cushion(s, i, event)
 
 
 @kernel
-def rebound_approaching(p, w, k, facts, trace, members, time):
+def rebound_approaching(s, members, time):
     """Rail collisions of the members that approach a cushion faster than SOFT_CUSHION; bit set of them."""
     changed = 0
     rest = members
     while rest != 0:
         i = lowest_bit(rest)
         rest &= rest - 1
-        cushion = touched_cushion(p, w, k, i)
-        if cushion != NO_CUSHION and towards_cushion(w, cushion, VX, VY, i) > SOFT_CUSHION:
-            rebound_and_report(p, w, k, facts, trace, i, cushion, time)
+        cushion = touched_cushion(s, i)
+        if cushion != at.NO_CUSHION and towards_cushion(s, cushion, at.VX, i) > SOFT_CUSHION:
+            rebound_and_report(s, i, cushion, time)
             changed |= 1 << i
     return changed
 
 
 @kernel
-def hold_at_cushions(p, w, k, members, also_returning):
+def hold_at_cushions(s, members, also_returning):
     """Hold the members that approach a cushion softly, or whose own acceleration brings them back at once.
 
     An approach of at most SLOW_APPROACH is rounding: it is stopped, and costs no spin.
@@ -144,37 +99,55 @@ def hold_at_cushions(p, w, k, members, also_returning):
     while rest != 0:
         i = lowest_bit(rest)
         rest &= rest - 1
-        cushion = touched_cushion(p, w, k, i)
-        if cushion != NO_CUSHION:
-            speed = towards_cushion(w, cushion, VX, VY, i)
+        cushion = touched_cushion(s, i)
+        if cushion != at.NO_CUSHION:
+            speed = towards_cushion(s, cushion, at.VX, i)
             soft = SLOW_APPROACH < speed <= SOFT_CUSHION
-            if soft or (also_returning != 0 and returns_at_once(p, w, i, cushion)):
-                hold(p, w, i, cushion)
+            if soft or (also_returning != 0 and returns_at_once(s, i, cushion)):
+                hold(s, i, cushion)
                 changed |= 1 << i
             elif speed > 0.0:
-                stop(p, w, i, cushion)
+                stop(s, i, cushion)
                 changed |= 1 << i
     return changed
 
 
+@small_kernel
+def calm(s, members, allowed, quiet, time):
+    """After the rounds: bound the energy, stop what hardly moves; record the balls in ``quiet`` and those changed here.
+
+    A contact event tells of every ball that changed since its last event.
+    """
+    if scale_down(s, members, allowed):
+        quiet = members
+        restate(s, members)
+    stilled = lay_still(s, members)
+    restate(s, stilled)
+    quiet |= stilled
+    free_from_cushions(s, members)
+    rest = quiet
+    while rest != 0:
+        record(s, time, plain(at.CONTACT), lowest_bit(rest), plain(at.NOBODY))
+        rest &= rest - 1
+
+
 @kernel
-def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
+def settle_cluster(s, i, time):
     """``settle`` in full, round by round."""
-    members = gather(p, w, k, facts, 1 << i, time)
+    members = gather(s, 1 << i, time)
     quiet = 0  # balls changed since their last event
     allowed = -1.0  # energy before anything was held or parted
     resting = False  # step 3 has begun
-    settled = False
     for _ in range(ROUND_LIMIT):
-        pushed = 0 if resting else push_pairs(p, w, k, members)
+        pushed = 0 if resting else push_pairs(s, members)
         if pushed != 0:
-            restate(p, w, k, pushed)
-            quiet &= ~report_collisions(p, w, k, facts, facts_float, trace, time)
+            restate(s, pushed)
+            quiet &= ~report_collisions(s, time)
             continue
-        rebounding = rebound_approaching(p, w, k, facts, trace, members, time)
-        before = energy(p, w, members)
-        held = hold_at_cushions(p, w, k, members, plain(0))
-        restate(p, w, k, held)
+        rebounding = rebound_approaching(s, members, time)
+        before = energy(s, members)
+        held = hold_at_cushions(s, members, plain(0))
+        restate(s, held)
         quiet = quiet & ~rebounding | held
         if held != 0 and allowed < 0.0:
             allowed = before
@@ -182,77 +155,62 @@ def settle_cluster(p, w, k, facts, facts_float, trace, i, time):
             continue
         if not resting:
             resting = True
-            changed = settle_slow_pairs(w, k, members)
-            restate(p, w, k, changed)
+            changed = settle_slow_pairs(s, members)
+            restate(s, changed)
             quiet |= changed
         if allowed < 0.0:
-            allowed = energy(p, w, members)
-        changed = part_pressed_pairs(p, w, k) | hold_at_cushions(p, w, k, members, plain(1))
-        restate(p, w, k, changed)
+            allowed = energy(s, members)
+        changed = part_pressed_pairs(s) | hold_at_cushions(s, members, plain(1))
+        restate(s, changed)
         quiet |= changed
-        if changed == 0 or STOP_BELOW * energy(p, w, members) > allowed:
-            settled = True
-            break
-    if not settled:
-        return FAILED
-    if scale_down(p, w, members, allowed):
-        quiet = members
-        restate(p, w, k, members)
-    stilled = lay_still(p, w, members)
-    restate(p, w, k, stilled)
-    quiet |= stilled
-    free_from_cushions(w, k, members)
-    rest = quiet
-    while rest != 0:
-        record(w, k, trace, time, plain(CONTACT), lowest_bit(rest), plain(NOBODY))
-        rest &= rest - 1
-    return members
+        if changed == 0 or STOP_BELOW * energy(s, members) > allowed:
+            calm(s, members, allowed, quiet, time)
+            return members
+    return UNSETTLED
 
 
 @small_kernel
-def meet_cushion_alone(p, w, k, facts, trace, i, cushion, time):
+def meet_cushion_alone(s, i, cushion, time):
     """A ball that touches nothing but a cushion; whether that settles it."""
-    if towards_cushion(w, cushion, VX, VY, i) <= SOFT_CUSHION:
+    if towards_cushion(s, cushion, at.VX, i) <= SOFT_CUSHION:
         return False
-    rebound_and_report(p, w, k, facts, trace, i, cushion, time)
-    free_from_cushions(w, k, 1 << i)
-    return not returns_at_once(p, w, i, cushion)
+    rebound_and_report(s, i, cushion, time)
+    free_from_cushions(s, 1 << i)
+    return not returns_at_once(s, i, cushion)
 
 
 @small_kernel
-def meet_ball_alone(p, w, k, facts, facts_float, trace, i, j, time):
+def meet_ball_alone(s, i, j, time):
     """Two balls that touch nothing but each other; whether that settles them."""
-    nx, ny, _ = normal(w, i, j)
-    closing = approach(w, i, j, nx, ny)
+    touch = touch_of(s, i, j)
+    closing = approach(s, touch)
     if closing <= SLOW_APPROACH:
         return False
-    push_alone(p, w, k, i, j, nx, ny, closing)
-    restate(p, w, k, 1 << i | 1 << j)
-    first = load_integer(k, CONTACT_SEEN) == 0
-    report_collision(p, w, k, facts, facts_float, trace, i, j, first, time)
-    free_from_cushions(w, k, 1 << i | 1 << j)
+    push_alone(s, touch, closing)
+    restate(s, 1 << i | 1 << j)
+    first = load_integer(s.k, at.CONTACT_SEEN) == 0
+    report_collision(s, i, j, first, time)
+    free_from_cushions(s, 1 << i | 1 << j)
     # No pair is pressed harder than by sliding friction on both balls.
-    return -approach(w, i, j, nx, ny) > load(p, P_SLIDE) * load(p, P_REST_TIME)
+    return -approach(s, touch) > load(s.p, at.P_SLIDE) * load(s.p, at.P_REST_TIME)
 
 
 @kernel
-def settle(p, w, k, facts, facts_float, trace, i, j, time):
+def settle(s, i, j, time):
     """Resolve the touching cluster of ball ``i`` at ``time``; ``j``: the ball it meets there, or NOBODY.
 
-    Returns the bit set of all its members, anchored at ``time`` in their new motion states, or FAILED. Two balls
+    Returns the bit set of all its members, anchored at ``time`` in their new motion states, or UNSETTLED. Two balls
     alone, and a ball alone at a cushion, are the rule's first round and nothing else: they take a short way.
     """
-    bring(p, w, k, facts, i, time)
-    cushion = touched_cushion(p, w, k, i)
-    if j != NOBODY and cushion == NO_CUSHION:
-        bring(p, w, k, facts, j, time)
-        near_i, near_j = neighbours_of_two(p, w, i, j, time)
-        if near_i == 1 << j and near_j == 1 << i and touched_cushion(p, w, k, j) == NO_CUSHION:
+    bring(s, i, time)
+    cushion = touched_cushion(s, i)
+    if j != at.NOBODY and cushion == at.NO_CUSHION:
+        bring(s, j, time)
+        near_i, near_j = neighbours_of_two(s, i, j, time)
+        if near_i == 1 << j and near_j == 1 << i and touched_cushion(s, j) == at.NO_CUSHION:
             low, high = min(i, j), max(i, j)
-            if meet_ball_alone(p, w, k, facts, facts_float, trace, low, high, time):
+            if meet_ball_alone(s, low, high, time):
                 return 1 << i | 1 << j
-    elif neighbours(p, w, k, i, time) == 0 and (
-        cushion == NO_CUSHION or meet_cushion_alone(p, w, k, facts, trace, i, cushion, time)
-    ):
+    elif neighbours(s, i, time) == 0 and (cushion == at.NO_CUSHION or meet_cushion_alone(s, i, cushion, time)):
         return 1 << i
-    return settle_cluster(p, w, k, facts, facts_float, trace, i, time)
+    return settle_cluster(s, i, time)

@@ -1,0 +1,223 @@
+"""These kernels beside those of an earlier commit in one run: bits, instructions, time and compile time.
+
+What a change of form must not change. Two processes, one a commit, play the same scenes in turn; time is the median
+over pairs of neighbouring runs, so that a loaded machine slows both; instructions are counted by callgrind.
+"""
+
+import json
+import os
+import pickle
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+import physics
+from benchmarks import scenes, speed
+from benchmarks.command import main
+from benchmarks.recording import ROOT, Row, Tables
+
+BASE = "8336b41"
+"""Version 0.1.0."""
+
+CHILD = ROOT / "benchmarks" / "against_child.py"
+COUNTED = 4
+"""One shot in so many is played under callgrind, which is fifty times slower."""
+
+PLAIN = {"NUMBA_CPU_NAME": "x86-64-v3", "NUMBA_CPU_FEATURES": ""}
+"""Compiled for what valgrind knows; a processor's own instructions it may not."""
+
+Scenes = dict[str, dict[str, Any]]
+
+
+def measure(full: bool) -> Tables:
+    """All tables of this benchmark."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        subprocess.run(["git", "worktree", "add", "--detach", folder / "base", BASE], cwd=ROOT, check=True)
+        try:
+            sides = {"base": Side(folder, folder / "base"), "now": Side(folder, ROOT)}
+            shots, pairs = (8_000, 31) if full else (2_000, 7)
+            return {
+                "compile": list(compiling(sides, 3 if full else 1)),
+                "instructions": list(instructions(sides, every_scene(shots // COUNTED))),
+                "time": list(times(sides, every_scene(shots), pairs)),
+            }
+        finally:
+            subprocess.run(["git", "worktree", "remove", "--force", folder / "base"], cwd=ROOT, check=True)
+
+
+def every_scene(shots: int) -> Scenes:
+    """The scenes of ``speed``, and what they leave out: contacts of many bodies, the historical laws, a trace."""
+    table, old = physics.Table.olympiad(), physics.Table.fastfiz()
+    found = {name: scene(table, *arrays) for name, *arrays in speed.workloads(shots)}
+    rng = np.random.default_rng(2)
+    states, strokes = scenes.breaks(table, rng, shots // 8)
+    found["break, historical"] = scene(old, states, strokes)
+    found["break, traced"] = scene(table, *scenes.played(table, states, strokes), traced=True)
+    found["4 balls, traced"] = scene(table, *scenes.playable_mid_game(table, rng, shots // 2, 4), traced=True)
+    touching = scenes.racks(table, shots // 8, gap=0.0)
+    found["touching break"] = scene(table, *scenes.played(table, touching, strokes))
+    found["frozen to a cushion"] = scene(table, *frozen(table, rng, shots // 2))
+    return found
+
+
+def scene(table: physics.Table, states: scenes.Floats, shots: scenes.Floats, traced: bool = False) -> dict[str, Any]:
+    """As a child process takes it."""
+    return {"table": table.to_dict(), "states": states, "shots": shots, "traced": traced}
+
+
+def frozen(table: physics.Table, rng: np.random.Generator, n: int) -> tuple[scenes.Floats, scenes.Floats]:
+    """Three touching balls on the south cushion, struck at."""
+    radius = table.ball_radius
+    states = scenes.nobody(n)
+    for ball in range(1, 4):
+        states[:, ball] = 0.4 + 2.0 * radius * ball, radius
+    states[:, 0] = rng.uniform([0.2, 0.5], [0.9, 1.5], (n, 2))
+    shots = rng.uniform([2.0, 0.0, 5.0, -5.0, -5.0], [6.0, 0.0, 10.0, 5.0, 5.0], (n, 5))
+    way = states[:, 2] - states[:, 0] + rng.uniform(-radius, radius, (n, 2))
+    shots[:, 1] = np.degrees(np.arctan2(way[:, 1], way[:, 0]))
+    return scenes.played(table, states, shots)
+
+
+class Side:
+    """One of the commits compared: its checkout and the compiled kernels it keeps.
+
+    Attributes:
+        tree: the checkout.
+    """
+
+    def __init__(self, folder: Path, tree: Path) -> None:
+        self.tree = tree
+        self._folder = folder
+        self._cache = Path(tempfile.mkdtemp(dir=folder))
+
+    def forget(self) -> None:
+        """Compile anew the next time."""
+        shutil.rmtree(self._cache)
+        self._cache.mkdir()
+
+    def start(self, given: Scenes, plain: bool = False, under: tuple[str, ...] = ()) -> "Child":
+        """A process that plays ``given``; ``under``: a command that runs it."""
+        path = self._folder / "scenes"
+        path.write_bytes(pickle.dumps(given))
+        places = {"PYTHONPATH": str(self.tree), "POOLIAD_CACHE_DIR": str(self._cache)}
+        command = [*under, sys.executable, "-P", str(CHILD), str(path)]
+        return Child(command, os.environ | places | (PLAIN if plain else {}), self.tree)
+
+
+class Child:
+    """A process that answers commands; its first answer is what starting cost.
+
+    Attributes:
+        compile: CPU s.
+    """
+
+    def __init__(self, command: list[str], environment: dict[str, str], tree: Path) -> None:
+        pipe = subprocess.PIPE
+        self._process = subprocess.Popen(command, env=environment, cwd=tree, stdin=pipe, stdout=pipe, text=True)
+        said = self._read()
+        if Path(said["file"]).parents[1] != tree.resolve():
+            raise RuntimeError(f"physics of {tree} was asked for, {said['file']} was loaded")
+        self.compile = float(said["compile"])
+
+    def ask(self, command: str, scene: str) -> Any:
+        """The answer to one command."""
+        assert self._process.stdin is not None
+        self._process.stdin.write(f"{command} {scene}\n")
+        self._process.stdin.flush()
+        return self._read()
+
+    def _read(self) -> Any:
+        assert self._process.stdout is not None
+        line = self._process.stdout.readline()
+        if not line:
+            raise RuntimeError(f"{self._process.args}: ended with {self._process.wait()}")
+        return json.loads(line)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.close()
+        self._process.wait()
+
+
+def compiling(sides: dict[str, Side], pairs: int) -> Iterator[Row]:
+    """CPU time of compiling all kernels with nothing cached, in turn; the median of pairs."""
+    found: dict[str, list[float]] = {name: [] for name in sides}
+    for _ in range(pairs):
+        for name, side in sides.items():
+            side.forget()
+            with side.start({}) as child:
+                found[name].append(child.compile)
+    ratios = [now / base for base, now in zip(found["base"], found["now"], strict=True)]
+    yield {
+        "pairs": pairs,
+        "base_s": round(statistics.median(found["base"]), 2),
+        "now_s": round(statistics.median(found["now"]), 2),
+        "ratio": round(statistics.median(ratios), 3),
+    }
+
+
+def instructions(sides: dict[str, Side], given: Scenes) -> Iterator[Row]:
+    """Instructions that callgrind counts, the call's Python included; nothing where there is no valgrind."""
+    if shutil.which("valgrind") is None:
+        return
+    counts = {name: count(side, given) for name, side in sides.items()}
+    for scene in given:
+        base, now = counts["base"][scene], counts["now"][scene]
+        shots = len(given[scene]["shots"])
+        yield {
+            "scene": scene,
+            "shots": shots,
+            "base_per_shot": round(base / shots),
+            "now_per_shot": round(now / shots),
+            "ratio": round(now / base, 4),
+        }
+
+
+def count(side: Side, given: Scenes) -> dict[str, int]:
+    """Instructions of each scene."""
+    with side.start(given, plain=True):
+        pass  # compiled where it is fast
+    with tempfile.TemporaryDirectory() as out:
+        tool = ("valgrind", "--tool=callgrind", "--instr-atstart=no", f"--callgrind-out-file={out}/out", "-q")
+        with side.start(given, plain=True, under=tool) as child:
+            for scene in given:
+                child.ask("count", scene)
+        dumps = {int(path.suffix[1:]): path.read_text() for path in Path(out).glob("out.*")}
+    return {scene: total(dumps[place]) for place, scene in enumerate(given, 1)}
+
+
+def total(dump: str) -> int:
+    """The instructions of one dump."""
+    return next(int(line.split()[1]) for line in dump.splitlines() if line.startswith(("totals:", "summary:")))
+
+
+def times(sides: dict[str, Side], given: Scenes, pairs: int) -> Iterator[Row]:
+    """CPU time of both, in turn: the median over pairs of their ratio; whether all outputs have the same bits."""
+    with sides["base"].start(given) as base, sides["now"].start(given) as now:
+        for scene in given:
+            same = base.ask("bits", scene) == now.ask("bits", scene)
+            rows = [(base.ask("time", scene), now.ask("time", scene)) for _ in range(pairs)]
+            shots = len(given[scene]["shots"])
+            yield {
+                "scene": scene,
+                "shots": shots,
+                "same_bits": same,
+                "base_us": round(statistics.median(row[0] for row in rows) / shots * 1e6, 3),
+                "now_us": round(statistics.median(row[1] for row in rows) / shots * 1e6, 3),
+                "ratio": round(statistics.median(row[1] / row[0] for row in rows), 4),
+            }
+
+
+if __name__ == "__main__":
+    main("against", measure)
