@@ -162,6 +162,7 @@ class RealTable(Table):
     flight: bool = False
 
     FIXED: ClassVar[tuple[str, ...]] = ("name", "width", "length")
+    has_jaws: ClassVar[bool] = True
 
     @classmethod
     def of_size(cls, name: str) -> Self:

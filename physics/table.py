@@ -85,6 +85,9 @@ class Table:
     )
     """Parameters that ``replace`` does not change."""
 
+    has_jaws: ClassVar[bool] = False
+    """Whether pocket mouths have jaws, or are straight lines."""
+
     @classmethod
     def olympiad(cls) -> "Table":
         """The Computational Pool Olympiad's table with consistent collision physics: the default."""

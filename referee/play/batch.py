@@ -67,7 +67,8 @@ def play_strokes(
     Returns:
         n games; those in phase ``rerack`` await new balls.
     """
-    batch = simulate_batch(rules.table, strokes.before, noise.perturb_rows(strokes.shots, draws), threads=threads)
+    played = noise.perturb_rows(strokes.shots, draws, rules.table)
+    batch = simulate_batch(rules.table, strokes.before, played, threads=threads)
     kitchen = np.array([game.cue_ball_in_hand is CueBallArea.KITCHEN for game in strokes.games])
     calls = groups_of_shooters(strokes.games), strokes.ball, strokes.pocket
     verdicts = read_verdicts(rules.table, strokes.before, *calls, batch, kitchen)
