@@ -13,7 +13,9 @@ from physics.errors import InvalidShot, InvalidState, InvalidTable, PhysicsError
 from physics.events import BallState, Event, EventKind, Motion
 from physics.facts import FACTS_DTYPE, Facts
 from physics.generator import SeededStream
+from physics.pockets import Jaw, Pocket
 from physics.rack import rack
+from physics.real_table import RealTable
 from physics.shot import Shot
 from physics.simulation import Result, resume, simulate
 from physics.state import TableState
@@ -32,8 +34,11 @@ __all__ = [
     "InvalidShot",
     "InvalidState",
     "InvalidTable",
+    "Jaw",
     "Motion",
     "PhysicsError",
+    "Pocket",
+    "RealTable",
     "Result",
     "SeededStream",
     "Shot",

@@ -95,14 +95,14 @@ def simulate_batch(
     final, pocket = np.empty((n, N_BALLS, 2)), np.empty((n, N_BALLS), np.int8)
     facts, counted = np.empty(n, FACTS_DTYPE), NO_COUNTERS if counters is None else _checked_counters(counters, n)
     by_row = (strokes, final.reshape(n, 2 * N_BALLS), pocket, facts.view(np.int32).reshape(n, FACTS_WORDS))
-    run, row = kernels().simulate_rows, parameters(table, event_limit)
+    run, row = kernels(table.has_jaws).simulate_rows, parameters(table, event_limit)
 
     def part(first: int, last: int) -> None:
         if check is not None:
             check()
         given = positions if len(positions) == 1 else positions[first:last]
         if not isinstance(states, TableState):
-            _refuse_bad_rows(row, given, first)
+            _refuse_bad_rows(table, given, first)
         shots, *outputs = (array[first:last] for array in by_row)
         run(row, workspace(), given, shots, *outputs, NO_TRACE, counted[first:last])
 
@@ -173,11 +173,11 @@ def _checked_states(table: Table, states: TableState | NDArray[np.float64], n: i
     return positions.reshape(n, 2 * N_BALLS)
 
 
-def _refuse_bad_rows(parameters: NDArray[np.float64], positions: NDArray[np.float64], first: int) -> None:
+def _refuse_bad_rows(table: Table, positions: NDArray[np.float64], first: int) -> None:
     """Raise for the first of the rows whose balls are off the table or overlap; ``first``: the number of the first."""
     least = 2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE
-    find = kernels().first_bad_row
-    row, ball, other = find(parameters, workspace(), positions, least * least, PLACEMENT_TOLERANCE)
+    find = kernels(table.has_jaws).first_bad_row
+    row, ball, other = find(parameters(table), workspace(), positions, least * least, PLACEMENT_TOLERANCE)
     if row < 0:
         return
     allowed = "must be two finite numbers inside the cushion lines and outside the mouths"

@@ -42,10 +42,14 @@ def check(table: Table, state: TableState, shot: Shot) -> Unplayable | None:
     if not isinstance(shot, Shot):
         raise InvalidShot("shot", shot, "must be a physics.Shot")
     stroke = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b]])
-    number, obstacle = kernels().check_shot(parameters(table), workspace(), checked_positions(table, state), stroke)
+    number, obstacle = kernels(table.has_jaws).check_shot(
+        parameters(table), workspace(), checked_positions(table, state), stroke
+    )
     status = Status(number)
     if status is Status.AT_REST:
         return None
+    if status is Status.OUT_OF_RANGE:
+        return Unplayable(status, _beyond(table, shot))
     if status is not Status.CUE_OBSTRUCTED:
         return Unplayable(status, status.explain())
     return Unplayable(status, f"the cue is blocked by {_obstacle_name(obstacle)} at theta = {shot.theta} deg")
@@ -69,7 +73,9 @@ def min_elevation(table: Table, state: TableState, phi: float, a: float = 0.0, b
         raise InvalidState("positions[0]", None, "there must be a cue ball on the table")
     if not table.cue_test:
         return 0.0
-    return float(kernels().elevation_needed(parameters(table), workspace(), positions, shot.phi, shot.a, shot.b))
+    return float(
+        kernels(table.has_jaws).elevation_needed(parameters(table), workspace(), positions, shot.phi, shot.a, shot.b)
+    )
 
 
 def min_elevations(
@@ -86,7 +92,7 @@ def min_elevations(
     """
     if not table.cue_test:
         return np.zeros(len(positions))
-    find, row, work = kernels().elevation_needed, parameters(table), workspace()
+    find, row, work = kernels(table.has_jaws).elevation_needed, parameters(table), workspace()
     flat, columns = positions.reshape(-1, 1, 2 * N_BALLS), zip(phi.tolist(), a.tolist(), b.tolist(), strict=True)
     return np.array([find(row, work, one, *column) for one, column in zip(flat, columns, strict=True)])
 
@@ -97,9 +103,18 @@ def are_playable(table: Table, positions: NDArray[np.float64], shots: NDArray[np
     Args:
         positions: (n, 16, 2) float64 m, shots: (n, 5) float64; both C-contiguous.
     """
-    test, row, work = kernels().check_shot, parameters(table), workspace()
+    test, row, work = kernels(table.has_jaws).check_shot, parameters(table), workspace()
     flat, strokes = positions.reshape(-1, 1, 2 * N_BALLS), shots.reshape(-1, 1, len(FIELDS))
     return np.array([test(row, work, one, shot)[0] == Status.AT_REST for one, shot in zip(flat, strokes, strict=True)])
+
+
+def _beyond(table: Table, shot: Shot) -> str:
+    """In words, which parameter is out of the table's range."""
+    try:
+        shot.refuse_beyond(table)
+    except InvalidShot as refusal:
+        return str(refusal)
+    return Status.OUT_OF_RANGE.explain()
 
 
 def _obstacle_name(number: int) -> str:

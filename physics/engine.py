@@ -76,14 +76,14 @@ def workspace() -> NDArray[np.float64]:
 
 
 @functools.cache
-def kernels() -> Any:
-    """The module of compiled entry points."""
+def kernels(jaws: bool = False) -> Any:
+    """The module of compiled entry points: for tables with straight mouths, or with jaws."""
     with _LOADING:  # numba's setting below is the whole process's
-        return _load()
+        return _load("entries_real" if jaws else "entries")
 
 
 @functools.cache
-def _load() -> Any:
+def _load(module: str) -> Any:
     import numba
 
     folder = cache_folder()
@@ -92,7 +92,6 @@ def _load() -> Any:
     before = numba.config.CACHE_DIR
     try:
         numba.config.CACHE_DIR = str(folder or "")
-        module = importlib.import_module("physics.kernels.entries")
+        return importlib.import_module(f"physics.kernels.{module}")
     finally:
         numba.config.CACHE_DIR = before
-    return module

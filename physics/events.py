@@ -39,6 +39,8 @@ class EventKind(StrEnum):
     SPINNING_STATIONARY = "spinning_stationary"
     CONTACT = "contact"
     """A touching ball was parted or brought to rest by the contact rule; see docs/physics.md."""
+    JAW_COLLISION = "jaw_collision"
+    """A ball hit a jaw of a pocket mouth: its facing, or the horn between facing and nose."""
 
     @classmethod
     def _missing_(cls, value: object) -> NoReturn:
@@ -85,7 +87,8 @@ class Event:
         time: s since the strike.
         kind: what happened.
         ball: the ball it happened to; in a ball collision the lower number.
-        other: the other ball, the cushion (0..3 = W, E, S, N) or the pocket (0..5 = SW W NW NE E SE); else -1.
+        other: the other ball, the cushion (0..3 = W, E, S, N), the jaw (0..11, ``physics.Jaw``) or the pocket (0..5 =
+            SW W NW NE E SE); else -1.
         states: state of each ball involved, after the event.
     """
 
@@ -113,6 +116,8 @@ class Event:
             partner = f" with ball {self.other}"
         elif self.kind is EventKind.RAIL_COLLISION:
             partner = f" at the {CUSHION_NAMES[self.other]} cushion"
+        elif self.kind is EventKind.JAW_COLLISION:
+            partner = f" at a jaw of pocket {POCKET_NAMES[self.other // 2]}"
         elif self.kind is EventKind.POCKET_COLLISION:
             partner = f" in pocket {POCKET_NAMES[self.other]}"
         return f"{self.time:.6f} s  ball {self.ball}  {self.kind.value.replace('_', ' ')}{partner}"

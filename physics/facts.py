@@ -21,7 +21,8 @@ FACTS_DTYPE: Final = np.dtype(
         (name, kind) if size == 1 else (name, kind, (size,))
         for kind, fields in ((np.int32, layout.INTEGER_FACTS), (np.float64, layout.FLOAT_FACTS))
         for name, size in fields.items()
-    ]
+    ],
+    align=True,
 )
 """One shot's facts. The kernel writes the int32 and the float64 by position (``physics.kernels.layout``)."""
 
@@ -50,6 +51,7 @@ class Facts:
         pocketed: (16,) the pocket collision; pocket: (16,) which pocket, or -1.
         off_table: (16,) the event by which the ball left the table.
         frozen_to_cushion, frozen_to_cue_ball: (16,) 1 where the ball touched a cushion, the cue ball, at the start.
+        miscue: 1 if the tip slipped off the cue ball; it never does on a table whose cue has no end mass.
         duration: s.
         first_contact_cue_ball: (x, y) m, the cue ball's centre at first contact; NaN if there was none.
     """
@@ -66,6 +68,7 @@ class Facts:
     off_table: PerBall
     frozen_to_cushion: PerBall
     frozen_to_cue_ball: PerBall
+    miscue: int
     duration: float
     first_contact_cue_ball: tuple[float, float]
 
@@ -86,6 +89,7 @@ class Facts:
             off_table=_NOBODY,
             frozen_to_cushion=nothing_frozen,
             frozen_to_cue_ball=nothing_frozen,
+            miscue=0,
             duration=0.0,
             first_contact_cue_ball=(math.nan, math.nan),
         )

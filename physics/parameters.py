@@ -5,11 +5,16 @@ from numpy.typing import NDArray
 
 from physics.constants import BALL_MASS, EVENT_LIMIT
 from physics.kernels import layout as at
+from physics.mouths import Mouth
+from physics.real_table import RealTable
 from physics.table import Table
 
 NO_SLIP, NO_SLIP_HISTORICAL = 1e-12, 1e-10
 """m/s. A slip below this is rolling and a speed below it is rest: rounding of a velocity is 1e-15 m/s. The second
 value is the historical engine's."""
+
+CUSHION_LAWS = {"factors": at.FACTORS, "han": at.HAN, "mathavan": at.MATHAVAN}
+BALL_LAWS = {"consistent": at.CONSISTENT, "fastfiz": at.FASTFIZ, "alciatore": at.ALCIATORE}
 
 _KEPT_AS = "_kernel_parameters"
 LIMITS_KEPT = 8
@@ -102,6 +107,38 @@ def _row(table: Table, event_limit: int) -> NDArray[np.float64]:
         at.P_REST_TIME: REST_TIME_HISTORICAL if historical else _rest_time(table),
         at.P_EVENT_LIMIT: float(event_limit),
     }
-    row = np.array([[values[place] for place in range(at.P_SIZE)]])
+    size = at.P_SIZE
+    if isinstance(table, RealTable):
+        values |= _real_values(table)
+        size = at.P_REAL_SIZE
+    row = np.array([[values[place] for place in range(size)]])
     row.flags.writeable = False
     return row
+
+
+def _real_values(table: RealTable) -> dict[int, float]:
+    """What a table with jaws has besides, or otherwise."""
+    rho, radius = table.contact_distance, table.ball_radius
+    return {
+        at.P_LINE_X: 0.5 * table.width - rho,
+        at.P_LINE_Y: 0.5 * table.length - rho,
+        at.P_RHO: rho,
+        at.P_NOSE_COSINE: rho / radius,
+        at.P_NOSE_SINE: -(table.nose_height - radius) / radius,
+        at.P_CUSHION_LAW: CUSHION_LAWS[table.cushion],
+        at.P_E_CUSHION: table.e_cushion,
+        at.P_MU_CUSHION: table.mu_cushion,
+        at.P_MU_SLIDE: table.mu_slide,
+        at.P_BALL_LAW: BALL_LAWS[table.ball],
+        at.P_END_RATIO: table.cue_end_mass / table.ball_mass,
+        at.P_E_TIP: table.e_tip,
+        at.P_MU_TIP: table.mu_tip,
+        **dict(enumerate(_mouth(table.corner_shape), at.P_CORNER_JAW)),
+        **dict(enumerate(_mouth(table.side_shape), at.P_SIDE_JAW)),
+    }
+
+
+def _mouth(shape: Mouth) -> list[float]:
+    """MOUTH_WIDTH numbers, in the order of the layout."""
+    jaw = shape.nose_end, shape.horn_radius, *shape.facing_start, *shape.facing_normal, shape.facing_length
+    return [*jaw, *shape.hole_centre, shape.hole_radius]

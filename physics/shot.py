@@ -7,8 +7,8 @@ import numbers
 from collections.abc import Mapping
 from typing import Any, Self
 
-from physics.constants import THETA_MAX, V_MAX
 from physics.errors import InvalidShot
+from physics.table import Table
 
 FIELDS = ("v", "phi", "theta", "a", "b")
 """Column order of shot arrays, and the positional order of ``Shot``."""
@@ -19,17 +19,17 @@ class Shot:
     """One stroke of the cue.
 
     Attributes:
-        v: m/s, cue speed before impact, in [0, 10].
+        v: m/s, cue speed before impact, from 0 to the table's ``v_max``.
         phi: deg, azimuth of the stroke, counter-clockwise from +x; any finite number.
-        theta: deg, elevation of the cue, in [0, 70].
+        theta: deg, elevation of the cue, from 0 to the table's ``theta_max``.
         a: mm, tip offset to the side; positive gives right english.
         b: mm, tip offset upwards; positive gives follow, negative draw.
 
-    A tip off the ball (a^2 + b^2 > R^2) can be written down, since noise can produce it; ``physics.check``
-    says that it cannot be played.
+    Any finite numbers can be written down: what a table allows, the table knows, and ``physics.check`` says whether
+    a shot can be played on it. So does it of a tip off the ball (a^2 + b^2 > R^2), since noise can produce one.
 
     Raises:
-        InvalidShot: a parameter is not a finite number, or ``v`` or ``theta`` is out of range.
+        InvalidShot: a parameter is not a finite number.
     """
 
     v: float
@@ -41,10 +41,12 @@ class Shot:
     def __post_init__(self) -> None:
         for name in FIELDS:
             object.__setattr__(self, name, _finite(name, getattr(self, name)))
-        if not 0.0 <= self.v <= V_MAX:
-            raise InvalidShot("v", self.v, f"must be in [0, {V_MAX}] m/s")
-        if not 0.0 <= self.theta <= THETA_MAX:
-            raise InvalidShot("theta", self.theta, f"must be in [0, {THETA_MAX}] deg")
+
+    def refuse_beyond(self, table: Table) -> None:
+        """Raise InvalidShot, naming field and range, if ``v`` or ``theta`` is not in the table's range."""
+        for name, most, unit in (("v", table.v_max, "m/s"), ("theta", table.theta_max, "deg")):
+            if not 0.0 <= getattr(self, name) <= most:
+                raise InvalidShot(name, getattr(self, name), f"must be a number from 0 to {most:g} {unit}")
 
     def replace(self, **changes: float) -> Self:
         """Return a copy with some parameters changed.

@@ -95,7 +95,9 @@ class Result:
         rows = self._rows()
         out = np.empty((1, N_BALLS * STATE_WIDTH))
         start = resting_states(self._start.reshape(N_BALLS, 2)) if self._start.size == 2 * N_BALLS else self._start
-        kernels().state_at(parameters(self.table), workspace(), start, rows.reshape(1, -1), float(t), out)
+        kernels(self.table.has_jaws).state_at(
+            parameters(self.table), workspace(), start, rows.reshape(1, -1), float(t), out
+        )
         return Snapshot.from_states(self.table, t, out.reshape(N_BALLS, STATE_WIDTH))
 
     def sample(self, dt: float) -> Iterator[Snapshot]:
@@ -135,11 +137,12 @@ def simulate(table: Table, state: TableState, shot: Shot, trace: bool = True, ev
 
     Raises:
         InvalidState: a ball lies outside the cushion lines or in a mouth of this table.
-        InvalidShot: ``shot`` is not a ``Shot``.
+        InvalidShot: ``shot`` is not a ``Shot``, or its speed or elevation is out of the table's range.
         ValueError: ``event_limit`` is out of range.
     """
     if not isinstance(shot, Shot):
         raise InvalidShot("shot", shot, "must be a physics.Shot")
+    shot.refuse_beyond(table)
     stroke = np.array((shot.v, shot.phi, shot.theta, shot.a, shot.b)).reshape(1, SHOT_WIDTH)
     return _run(table, checked_positions(table, state), stroke, trace, event_limit)
 
@@ -163,7 +166,7 @@ def _run(table: Table, states: Floats, stroke: Floats, trace: bool, event_limit:
     """One row through the kernel; a trace that turns out too short is written again, with room for all."""
     final, facts = np.empty((1, 2 * N_BALLS)), np.empty((1, FACTS_WORDS), np.int32)
     outputs = final, np.empty((1, N_BALLS), np.int8), facts
-    entry, row, work = kernels().simulate_rows, parameters(table, event_limit), workspace()
+    entry, row, work = kernels(table.has_jaws).simulate_rows, parameters(table, event_limit), workspace()
     rows = TRACE_ROWS if trace else 0
     events = np.empty((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
     entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
@@ -181,6 +184,9 @@ def checked_positions(table: Table, state: TableState) -> Floats:
         raise InvalidState("state", state, "must be a physics.TableState")
     flat = state.positions.reshape(1, -1)
     if not state.is_known_on(table):
-        bad = kernels().first_bad_row(parameters(table), workspace(), flat, 0.0, PLACEMENT_TOLERANCE)[0] >= 0
+        bad = (
+            kernels(table.has_jaws).first_bad_row(parameters(table), workspace(), flat, 0.0, PLACEMENT_TOLERANCE)[0]
+            >= 0
+        )
         state.valid_on(table, known=not bad)  # which has the words
     return flat

@@ -1,27 +1,27 @@
 """The table: its dimensions, its friction and the names of its collision laws.
 
 A ``Table`` is a frozen value. The constructors are named tables; ``replace`` changes single parameters within
-validated ranges. Lengths in metres, origin at the south-west corner of the cushion noses (Olympiad frame).
+validated ranges. Lengths in metres, origin at the south-west corner of the cushion noses (Olympiad frame). This class
+is the Olympiad's table, with straight pocket mouths; tables with jaws are ``physics.real_table``.
 """
 
 import dataclasses
 import hashlib
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import Any, Literal, Self, get_args, overload
+from typing import Any, ClassVar, Literal, Self, get_args, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from physics import constants
 from physics.errors import InvalidTable
+from physics.pockets import Pocket, straight_pockets
 
 Collisions = Literal["consistent", "fastfiz"]
 """Named sets of collision laws; ``docs/physics.md`` gives each with its source."""
-
-_NAMES = ("olympiad", "fastfiz")
 
 _RANGES: dict[str, tuple[float, float]] = {
     "mu_slide": (0.01, 1.0),
@@ -33,10 +33,8 @@ _RANGES: dict[str, tuple[float, float]] = {
     "cushion_spin": (0.0, 1.0),
     "rack_gap": (0.0, 1e-3),
 }
-_FIXED = (
-    *("name", "width", "length", "corner_mouth", "side_mouth", "nose_height"),
-    *("cue_length", "cue_mass", "v_max", "theta_max"),
-)
+NAMED: dict[str, Callable[[], "Table"]] = {}
+"""Every named table: what makes it, by its name."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -81,15 +79,50 @@ class Table:
     collisions: Collisions = "consistent"
     cue_test: bool = True
 
-    @classmethod
-    def olympiad(cls) -> Self:
-        """The Computational Pool Olympiad's table with consistent collision physics: the default."""
-        return cls("olympiad")
+    FIXED: ClassVar[tuple[str, ...]] = (
+        *("name", "width", "length", "corner_mouth", "side_mouth", "nose_height"),
+        *("cue_length", "cue_mass", "v_max", "theta_max"),
+    )
+    """Parameters that ``replace`` does not change."""
+
+    has_jaws: ClassVar[bool] = False
+    """Whether pocket mouths have jaws, or are straight lines."""
 
     @classmethod
-    def fastfiz(cls) -> Self:
+    def olympiad(cls) -> "Table":
+        """The Computational Pool Olympiad's table with consistent collision physics: the default."""
+        return Table("olympiad")
+
+    @classmethod
+    def fastfiz(cls) -> "Table":
         """The same table with the historical engine's formulas, faults included, and no test of the cue."""
-        return cls("fastfiz", collisions="fastfiz", cue_test=False)
+        return Table("fastfiz", collisions="fastfiz", cue_test=False)
+
+    @classmethod
+    def nine_foot(cls) -> "Table":
+        """A nine-foot pool table, 2.54 m by 1.27 m, with jaws: see ``physics.real_table.RealTable``."""
+        return cls.named("nine_foot")
+
+    @classmethod
+    def eight_foot(cls) -> "Table":
+        """An eight-foot pool table, 92 in by 46 in (2.3368 m by 1.1684 m), with the pockets of the nine-foot one."""
+        return cls.named("eight_foot")
+
+    @classmethod
+    def seven_foot(cls) -> "Table":
+        """A seven-foot pool table, 78 in by 39 in (1.9812 m by 0.9906 m), with the pockets of the nine-foot one."""
+        return cls.named("seven_foot")
+
+    @classmethod
+    def named(cls, name: str) -> "Table":
+        """The named table.
+
+        Raises:
+            InvalidTable: there is none of this name.
+        """
+        if not isinstance(name, str) or name not in NAMED:
+            raise InvalidTable("name", name, f"must be one of {tuple(NAMED)}")
+        return NAMED[name]()
 
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some parameters changed.
@@ -97,21 +130,21 @@ class Table:
         Raises:
             InvalidTable: an unknown or fixed parameter, or a value outside its range.
         """
-        names = [field.name for field in dataclasses.fields(self) if field.name not in _FIXED]
+        names = [name for name in self.to_dict() if name not in self.FIXED]
         for name, value in changes.items():
             if name not in names:
                 raise InvalidTable(name, value, f"is not a parameter that can be replaced; these can: {names}")
         return dataclasses.replace(self, **changes)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str) or self.name not in _NAMES:
-            raise InvalidTable("name", self.name, f"must be one of {_NAMES}")
+        if self.name not in ("olympiad", "fastfiz"):
+            raise InvalidTable("name", self.name, f"must be one of {tuple(NAMED)}")
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
-            if field.name not in _FIXED:
+            if field.name not in self.FIXED:
                 _check_parameter(field.name, value, mu_slide=self.mu_slide)
             elif field.name != "name" and value != field.default:
-                raise InvalidTable(field.name, value, f"is {field.default} on every table there is")
+                raise InvalidTable(field.name, value, f"is {field.default} on this table")
 
     @property
     def ball_radius(self) -> float:
@@ -144,6 +177,11 @@ class Table:
         return self.corner_mouth / math.sqrt(2.0)
 
     @cached_property
+    def pockets(self) -> tuple[Pocket, ...]:
+        """The six pockets SW W NW NE E SE, for whoever draws them; m, in the table's frame."""
+        return straight_pockets(self.width, self.length, self.corner_reach, self.side_mouth)
+
+    @cached_property
     def mouths(self) -> NDArray[np.float64]:
         """(6, 2) m: middle of each mouth line for the ball's centre, pockets SW W NW NE E SE."""
         radius = self.ball_radius
@@ -172,12 +210,19 @@ class Table:
         beside_side_mouth = (side < half_x - radius) | (end >= 0.5 * self.side_mouth)
         return inside & beside_side_mouth & (side + end < half_x + half_y - self.corner_reach - radius)
 
+    def in_play(self, x: float, y: float) -> bool:
+        """Whether a ball may pass (x, y), m: within cushion and mouth lines, to ``PLACEMENT_TOLERANCE``."""
+        half_x, half_y = 0.5 * self.width, 0.5 * self.length
+        side, end, reach = abs(x - half_x), abs(y - half_y), constants.PLACEMENT_TOLERANCE - self.ball_radius
+        inside = side <= half_x + reach and end <= half_y + reach
+        return inside and side + end <= half_x + half_y - self.corner_reach + reach
+
     def to_dict(self) -> dict[str, Any]:
         """Plain values by parameter name; ``from_dict`` reads them back."""
         return dataclasses.asdict(self)
 
     @classmethod
-    def from_dict(cls, values: Mapping[str, Any]) -> Self:
+    def from_dict(cls, values: Mapping[str, Any]) -> "Table":
         """Read a table written by ``to_dict``; parameters left out have the named table's value.
 
         Raises:
@@ -185,12 +230,12 @@ class Table:
         """
         if not isinstance(values, Mapping):
             raise InvalidTable("table", values, "must be a mapping of parameters by name")
-        name = values.get("name")
-        if not isinstance(name, str) or name not in _NAMES:
-            raise InvalidTable("name", name, f"must be one of {_NAMES}")
-        base = cls.olympiad() if name == "olympiad" else cls.fastfiz()
-        fields = {field.name: getattr(base, field.name) for field in dataclasses.fields(base)}
-        changes = {key: value for key, value in values.items() if key not in fields or not _same(fields[key], value)}
+        base = cls.named(values.get("name"))  # type: ignore[arg-type]  # whatever came is refused
+        known = base.to_dict()
+        same = {key: known[key] for key, value in values.items() if key in known and _same(known[key], value)}
+        changes = {
+            key: same.get(key, value) for key, value in values.items() if key not in same or key not in base.FIXED
+        }
         return base.replace(**changes)
 
     @cached_property
@@ -222,3 +267,6 @@ def _check_parameter(name: str, value: Any, *, mu_slide: Any) -> None:
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if not is_number or not low <= value <= high:
         raise InvalidTable(name, value, f"must be a number in [{low}, {high}]")
+
+
+NAMED.update(olympiad=Table.olympiad, fastfiz=Table.fastfiz)

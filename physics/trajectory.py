@@ -7,7 +7,7 @@ from typing import Self, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.constants import N_BALLS, PLACEMENT_TOLERANCE
+from physics.constants import N_BALLS
 from physics.errors import InvalidState
 from physics.events import KINDS, OFF_TABLE, BallState, Event, EventKind, Motion
 from physics.kernels import layout as at
@@ -61,7 +61,7 @@ class Snapshot:
         here = np.flatnonzero(~np.isin(self.motion, OFF_TABLE)).tolist()
         TableState.from_positions({ball: self.positions[ball] for ball in here})
         for ball in here:
-            if not _within(table, *self.positions[ball].tolist()):
+            if not table.in_play(*self.positions[ball].tolist()):
                 raise InvalidState(f"positions[{ball}]", self.positions[ball].tolist(), "must lie on the table")
             self._refuse_misfit(table, ball)
 
@@ -84,15 +84,6 @@ class Snapshot:
         states[:, SPIN] = self.spins
         states[:, at.A_MOTION] = self.motion
         return states.reshape(1, -1)
-
-
-def _within(table: Table, x: float, y: float) -> bool:
-    """Whether a centre is no farther out than the cushion and mouth lines, to ``PLACEMENT_TOLERANCE``."""
-    half_x, half_y = 0.5 * table.width, 0.5 * table.length
-    side, end, reach = abs(x - half_x), abs(y - half_y), PLACEMENT_TOLERANCE - table.ball_radius
-    return (
-        side <= half_x + reach and end <= half_y + reach and side + end <= half_x + half_y - table.corner_reach + reach
-    )
 
 
 class Events(Sequence[Event]):

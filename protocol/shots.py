@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, ConfigDict, Field, ValidatorFunctionWrapHandler, WrapValidator
 
 from physics.constants import THETA_MAX, V_MAX
-from physics.pockets import POCKET_NUMBERS
+from physics.pocket_names import POCKET_NUMBERS
 from physics.shot import Shot
 from protocol.terms import SIMULATIONS_MAX
 from protocol.values import Integer, Message, Number, ObjectBall, PocketNumber, Point, Request

@@ -11,7 +11,7 @@ from client.geometry.aim import Point, azimuth, cut_angle, distance, ghost_ball
 from client.geometry.paths import blockers
 from client.geometry.pots import STEEPEST_CUT, mouth, places_of
 from physics import Table, TableState
-from physics.pockets import pocket_number
+from physics.pocket_names import pocket_number
 
 CUSHIONS = range(4)
 """W, E, S, N, as rail collisions number them."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from client.geometry.aim import Point, azimuth, cut_angle, distance, ghost_ball
 from client.geometry.paths import blockers
 from physics import Table, TableState
-from physics.pockets import pocket_number
+from physics.pocket_names import pocket_number
 
 STEEPEST_CUT = 85.0
 """Degrees. Beyond this cut a contact hardly moves the object ball, and a tenth of a degree misses it."""

@@ -78,12 +78,13 @@ K_SIZE = PAIRS + MOST_PAIRS
 STATIONARY, SPINNING, SLIDING, ROLLING, POCKETED, ABSENT = range(6)
 
 # --- kinds of a ball's next event; of simultaneous ones the lower comes first --------------------------
-NOTHING, MEET_BALL, MEET_CUSHION, MEET_POCKET, TRANSITION, LOOK_AGAIN = range(6)
+NOTHING, MEET_BALL, MEET_CUSHION, MEET_JAW, MEET_POCKET, TRANSITION, LOOK_AGAIN = range(7)
 
 # --- kinds in the trace (physics.events.KINDS) ----------------------------------------------------------
 CUE_STRIKE, BALL_COLLISION, RAIL_COLLISION, POCKET_COLLISION = range(4)
 SLIDING_ROLLING, SLIDING_SPINNING, SLIDING_STATIONARY = 4, 5, 6
 ROLLING_SPINNING, ROLLING_STATIONARY, SPINNING_STATIONARY, CONTACT = 7, 8, 9, 10
+JAW_COLLISION = 11
 
 # --- statuses (physics.status.Status) -------------------------------------------------------------------
 AT_REST, CUE_OBSTRUCTED, TIP_OFF_BALL, OUT_OF_RANGE, NO_CUE_BALL, EVENT_LIMIT = range(6)
@@ -96,6 +97,7 @@ CUE_BALL = 0
 NOBODY = -1  # in place of a ball's number
 WEST, EAST, SOUTH, NORTH = range(4)
 NO_CUSHION = -1
+FIRST_JAW = 4  # + the jaw's number 0..11: the cushions of a table with jaws go on
 POCKET_SW, POCKET_W, POCKET_NW, POCKET_NE, POCKET_E, POCKET_SE = range(6)
 ABSENT_FROM_START = -2  # in place of a pocket's number, for a ball that was not there; -1 for one that stayed
 
@@ -130,6 +132,7 @@ INTEGER_FACTS = {
     "off_table": LANES,
     "frozen_to_cushion": LANES,
     "frozen_to_cue_ball": LANES,
+    "miscue": 1,
 }
 FLOAT_FACTS = {"duration": 1, "first_contact_cue_ball": 2}
 """Name and how many numbers."""
@@ -138,8 +141,9 @@ F_STATUS, F_EVENTS, F_CROSSED, F_CROSSED_BEFORE = range(4)
 F_FIRST, F_CUSHION, F_CUSHION_AFTER, F_POCKETED, F_POCKET, F_OFF_TABLE, F_FROZEN_CUSHION, F_FROZEN_CUE = range(
     4, 4 + 8 * LANES, LANES
 )
-F_INTEGERS = F_FROZEN_CUE + LANES
-F_DURATION, F_CUE_X, F_CUE_Y = range(F_INTEGERS // 2, F_INTEGERS // 2 + 3)  # as float64
+F_MISCUE = F_FROZEN_CUE + LANES
+F_INTEGERS = F_MISCUE + 1
+F_DURATION, F_CUE_X, F_CUE_Y = range((F_INTEGERS + 1) // 2, (F_INTEGERS + 1) // 2 + 3)  # as float64
 FACTS_WIDTH = 2 * (F_CUE_Y + 1)  # as int32
 
 # --- parameters of the table -------------------------------------------------------------------------------
@@ -179,3 +183,30 @@ FACTS_WIDTH = 2 * (F_CUE_Y + 1)  # as int32
     P_EVENT_LIMIT,  # events after which a shot ends: not the table's, but the caller's
     P_SIZE,
 ) = range(34)
+
+# --- and of a table with jaws, behind them -------------------------------------------------------------------
+(
+    P_RHO,  # m: contact distance in plan
+    P_NOSE_COSINE,  # of the normal's dip at the nose
+    P_NOSE_SINE,
+    P_CUSHION_LAW,  # see below
+    P_E_CUSHION,
+    P_MU_CUSHION,
+    P_MU_SLIDE,
+    P_BALL_LAW,  # see below
+    P_END_RATIO,  # cue end mass / ball mass
+    P_E_TIP,
+    P_MU_TIP,
+    P_CORNER_JAW,  # a mouth: see MOUTH_WIDTH
+) = range(P_SIZE, P_SIZE + 12)
+JAW_NOSE_END, JAW_HORN, JAW_START_S, JAW_START_D, JAW_NORMAL_S, JAW_NORMAL_D, JAW_LENGTH = range(7)
+HOLE_U, HOLE_V, HOLE_RADIUS = range(7, 10)
+MOUTH_WIDTH = 10
+"""Numbers of a mouth in jaw coordinates (``physics.mouths``): nose end, horn radius, the facing's start, normal and
+length, the hole's centre and radius."""
+P_SIDE_JAW = P_CORNER_JAW + MOUTH_WIDTH
+P_REAL_SIZE = P_SIDE_JAW + MOUTH_WIDTH
+
+# --- laws by name (physics.real_table) -------------------------------------------------------------------------
+FACTORS, HAN, MATHAVAN = range(3)
+CONSISTENT, FASTFIZ, ALCIATORE = range(3)

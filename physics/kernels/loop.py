@@ -17,9 +17,10 @@ from physics.kernels.compiling import (
 )
 from physics.kernels.detect.prediction import predict, release
 from physics.kernels.recording import record
+from physics.kernels.resolve.boundary import touched_cushion
 from physics.kernels.resolve.cloth import restate, transition
 from physics.kernels.resolve.cluster import UNSETTLED, settle
-from physics.kernels.resolve.touching import bring, touched_cushion
+from physics.kernels.resolve.touching import bring
 from physics.kernels.start import note_frozen, note_start, place, put_away, restore
 from physics.kernels.strike import playable, read_stroke, strike
 from physics.kernels.tolerances import STEPS_PER_EVENT

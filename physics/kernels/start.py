@@ -16,8 +16,9 @@ from physics.kernels.compiling import (
     store_integer,
 )
 from physics.kernels.motion import on_table
+from physics.kernels.resolve.boundary import touched_cushion
 from physics.kernels.resolve.cloth import begin
-from physics.kernels.resolve.touching import neighbours, touched_cushion
+from physics.kernels.resolve.touching import neighbours
 from physics.kernels.tolerances import TOUCH
 
 FAR_AWAY = 1000.0
@@ -101,6 +102,7 @@ def reset(s, rows):
     """Nothing has happened yet. The trace has room for ``rows`` events."""
     for n in range(at.F_INTEGERS):
         store_fact(s.facts, n, -1)
+    store_fact(s.facts, at.F_MISCUE, 0)
     store_fact_number(s.facts, at.F_DURATION, 0.0)
     store_fact_number(s.facts, at.F_CUE_X, math.nan)
     store_fact_number(s.facts, at.F_CUE_Y, math.nan)

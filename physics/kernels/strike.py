@@ -10,9 +10,11 @@ import math
 from typing import NamedTuple
 
 from physics.kernels import layout as at
-from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store_fact
 from physics.kernels.motion import on_table
+from physics.kernels.squirt import struck
 from physics.kernels.trigonometry import sine_cosine
+from physics.kernels.workspace import by_table
 
 MILLIMETRE = 1e-3
 """m: tip offsets of a shot come in millimetres."""
@@ -70,7 +72,7 @@ def read_stroke(shot):
 
 
 @small_kernel
-def strike(s, stroke):
+def strike_rigidly(s, stroke):
     """Velocity (vx, vy) in m/s and spin (wx, wy, wz) in rad/s of the cue ball after the strike.
 
     The tip must be on the ball.
@@ -94,6 +96,31 @@ def strike(s, stroke):
         along * stroke.dy + across * stroke.dx,
         a * stroke.cos_theta * turn,
     )
+
+
+@small_kernel
+def strike_with_end(s, stroke):
+    """The same by a cue whose end has mass: it squirts, and beyond the tip's friction it slips (squirt.py)."""
+    radius = load(s.p, at.P_RADIUS)
+    depth = math.sqrt(radius * radius - stroke.a * stroke.a - stroke.b * stroke.b)
+    velocity, spin, slips = struck(
+        radius,
+        (stroke.dx, stroke.dy, stroke.cos_theta, stroke.sin_theta),
+        depth,
+        stroke.a,
+        stroke.b,
+        load(s.p, at.P_MASS_RATIO),
+        load(s.p, at.P_END_RATIO),
+        load(s.p, at.P_E_TIP),
+        load(s.p, at.P_MU_TIP),
+        stroke.v,
+    )
+    store_fact(s.facts, at.F_MISCUE, int(slips))
+    return velocity[0], velocity[1], spin[0], spin[1], spin[2]
+
+
+strike = by_table(strike_rigidly, strike_with_end)
+"""``strike(s, stroke)``: velocity and spin of the cue ball after the strike."""
 
 
 @small_kernel
@@ -136,6 +163,48 @@ def below_nose(start, step, line, cue, nose):
     return cue.height + cue.rise * ((line - start) / step) <= nose
 
 
+@small_kernel
+def nose_under(s, cue):
+    """The cushion whose nose the cue meets, in front of it or over a mouth; NOBODY if none."""
+    half_x, half_y, nose = load(s.p, at.P_HALF_X), load(s.p, at.P_HALF_Y), load(s.p, at.P_NOSE)
+    if below_nose(cue.x, cue.ux, -half_x, cue, nose):
+        return at.BEHIND_CUSHION + at.WEST
+    if below_nose(cue.x, cue.ux, half_x, cue, nose):
+        return at.BEHIND_CUSHION + at.EAST
+    if below_nose(cue.y, cue.uy, -half_y, cue, nose):
+        return at.BEHIND_CUSHION + at.SOUTH
+    if below_nose(cue.y, cue.uy, half_y, cue, nose):
+        return at.BEHIND_CUSHION + at.NORTH
+    return at.NOBODY
+
+
+@small_kernel
+def rail_under(s, cue):
+    """The same on a table with jaws, where the tip may be beyond a nose line, in a mouth.
+
+    There the cue lies over the hole, as deep as that is; farther out it is over the rail.
+    """
+    half_x, half_y, nose = load(s.p, at.P_HALF_X), load(s.p, at.P_HALF_Y), load(s.p, at.P_NOSE)
+    found = nose_under(s, cue)
+    if found != at.NOBODY:
+        return found
+    if abs(cue.x) > half_x:
+        corner = half_y - abs(cue.y) < load(s.p, at.P_CORNER_JAW)
+        mouth = at.P_CORNER_JAW if corner else at.P_SIDE_JAW
+        line = half_x - load(s.p, mouth + at.HOLE_U) + load(s.p, mouth + at.HOLE_RADIUS)
+        if below_nose(cue.x, cue.ux, line if cue.x > 0.0 else -line, cue, nose):
+            return at.BEHIND_CUSHION + (at.EAST if cue.x > 0.0 else at.WEST)
+    if abs(cue.y) > half_y:
+        line = half_y - load(s.p, at.P_CORNER_JAW + at.HOLE_V) + load(s.p, at.P_CORNER_JAW + at.HOLE_RADIUS)
+        if below_nose(cue.y, cue.uy, line if cue.y > 0.0 else -line, cue, nose):
+            return at.BEHIND_CUSHION + (at.NORTH if cue.y > 0.0 else at.SOUTH)
+    return at.NOBODY
+
+
+cushion_under = by_table(nose_under, rail_under)
+"""``cushion_under(s, cue)``: BEHIND_CUSHION + the cushion that the cue meets, or NOBODY."""
+
+
 @kernel
 def obstacle(s, stroke):
     """What blocks the cue: NOBODY, or the number of the first obstacle.
@@ -153,16 +222,7 @@ def obstacle(s, stroke):
     blocking &= ~(1 << at.CUE_BALL)
     if blocking != 0:
         return lowest_bit(blocking)
-    half_x, half_y, nose = load(s.p, at.P_HALF_X), load(s.p, at.P_HALF_Y), load(s.p, at.P_NOSE)
-    if below_nose(cue.x, cue.ux, -half_x, cue, nose):
-        return at.BEHIND_CUSHION + at.WEST
-    if below_nose(cue.x, cue.ux, half_x, cue, nose):
-        return at.BEHIND_CUSHION + at.EAST
-    if below_nose(cue.y, cue.uy, -half_y, cue, nose):
-        return at.BEHIND_CUSHION + at.SOUTH
-    if below_nose(cue.y, cue.uy, half_y, cue, nose):
-        return at.BEHIND_CUSHION + at.NORTH
-    return at.NOBODY
+    return cushion_under(s, cue)
 
 
 @kernel

@@ -19,6 +19,10 @@ SOFT_CUSHION = 1e-3
 """m/s. A cushion stops a ball that comes no faster instead of bouncing it, without friction. Without it an
 approach of 1e-16 m/s would cost a ball frozen to a cushion 10 % of its speed and 90 % of its spin."""
 
+ROUNDING_ACROSS = 1e-14
+"""m/s. So much of a speed or a slip across a slanted wall may be the rounding of one along it (20 m/s have 4e-15).
+Smaller, and a ball held at a facing would be held again for ever; in 10 s it comes nearer by 1e-13 m."""
+
 PRESSING = 1e-14
 """m/s^2. Touching balls whose relative acceleration presses them together no harder are not pressed: over the 10 s of
 a shot that is 5e-13 m."""

@@ -6,7 +6,7 @@ from enum import StrEnum
 from operator import index
 from typing import Any, Final, Literal
 
-from physics.pockets import POCKET_NUMBERS, POCKETS_ALLOWED
+from physics.pocket_names import POCKET_NUMBERS, POCKETS_ALLOWED
 from physics.shot import Shot
 from referee.errors import InvalidAction
 

@@ -67,7 +67,7 @@ def play_strokes(
     Returns:
         n games; those in phase ``rerack`` await new balls.
     """
-    shots = noise.perturb_rows(strokes.shots, draws)
+    shots = noise.perturb_rows(strokes.shots, draws, rules.table)
     batch = simulate_batch(rules.table, strokes.before, shots, threads=threads, event_limit=rules.limits.events)
     kitchen = np.array([game.cue_ball_in_hand is CueBallArea.KITCHEN for game in strokes.games])
     calls = groups_of_shooters(strokes.games), strokes.ball, strokes.pocket

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from physics.constants import THETA_MAX, V_MAX
 from physics.generator import SeededStream
 from physics.shot import Shot
+from physics.table import Table
 
 SIGMA_A = 0.5
 SIGMA_B = 0.5
@@ -19,6 +19,8 @@ SIGMA_PHI = 0.125
 """deg: about 2 mm at 1 m."""
 SIGMA_V = 0.075
 """m/s."""
+
+OLYMPIAD = Table.olympiad()
 
 LEVEL_MAX = 5.0
 """The greatest level: five times the Olympiad's standard deviations."""
@@ -46,7 +48,7 @@ class NoiseModel:
         if not isinstance(self.told, bool):
             raise ValueError(f"told = {self.told!r}: must be True or False")
 
-    def perturb(self, shot: Shot, seed: bytes, stroke: int) -> Shot:
+    def perturb(self, shot: Shot, seed: bytes, stroke: int, table: Table = OLYMPIAD) -> Shot:
         """The shot as played.
 
         It depends on the intended shot, the game's noise seed and the stroke's index alone, so that nobody
@@ -58,6 +60,7 @@ class NoiseModel:
             shot: as intended.
             seed: the game's noise seed.
             stroke: index of the stroke in its game.
+            table: whose greatest speed and elevation bound the noise.
         """
         if self.level == 0.0:
             return shot
@@ -68,14 +71,17 @@ class NoiseModel:
         # phi is reduced first: at 10^16 degrees a double's spacing would swallow the noise
         phi = _mod_360(_mod_360(shot.phi) + self.level * SIGMA_PHI * stream.gaussian())
         v = shot.v + self.level * SIGMA_V * stream.gaussian()
-        return Shot(v=_clamp(v, V_MAX), phi=phi, theta=_clamp(theta, THETA_MAX), a=a, b=b)
+        return Shot(v=_clamp(v, table.v_max), phi=phi, theta=_clamp(theta, table.theta_max), a=a, b=b)
 
-    def perturb_rows(self, shots: NDArray[np.float64], draws: NDArray[np.float64]) -> NDArray[np.float64]:
+    def perturb_rows(
+        self, shots: NDArray[np.float64], draws: NDArray[np.float64], table: Table = OLYMPIAD
+    ) -> NDArray[np.float64]:
         """Many shots as played, (n, 5), bit for bit what ``perturb`` makes of them with the same normal numbers.
 
         Args:
             shots: (n, 5) as intended, columns v, phi, theta, a, b.
             draws: (n, 5) standard normal numbers for the same columns.
+            table: as for ``perturb``.
         """
         if self.level == 0.0:
             return shots
@@ -83,7 +89,7 @@ class NoiseModel:
         sigmas = self.level * np.array([SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B])
         dv, dphi, dtheta, da, db = (sigmas * draws).T
         phi = _mod_360_rows(_mod_360_rows(phi) + dphi)
-        v, theta = np.clip(v + dv, 0.0, V_MAX), np.clip(theta + dtheta, 0.0, THETA_MAX)
+        v, theta = np.clip(v + dv, 0.0, table.v_max), np.clip(theta + dtheta, 0.0, table.theta_max)
         return np.column_stack((v, phi, theta, a + da, b + db))
 
 

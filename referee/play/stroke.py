@@ -96,7 +96,7 @@ def play_stroke(
         ruling = rules.apply(game, action, None, None)
         return Stroke(game.turn, None, action, game.state, None, None, ruling, racked(rules, ruling, game, seeds))
     before = start_state(game, action)
-    shot = noise.perturb(action.shot, seeds.noise_seed, game.stroke)
+    shot = noise.perturb(action.shot, seeds.noise_seed, game.stroke, rules.table)
     result = simulate(rules.table, before, shot, trace=trace, event_limit=rules.limits.events)
     ruling = rules.apply(game, action, result.facts, result.final)
     after = racked(rules, ruling, game, seeds)

@@ -23,7 +23,7 @@ NUMPY = {"nan", "full", "int64", "float64"}
 BUILTINS = {"pow", "sum", "round", "divmod"}
 """Functions that would be the library's, or depend on an order."""
 
-REMAINDERS = {("trigonometry.py", "angle %= 360.0")}
+REMAINDERS = {("angles.py", "angle %= 360.0")}
 """``fmod`` is exact (IEEE 754, 5.3.1), but slow: where a remainder may stand."""
 
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from support.compare import UNRECORDED, Happening
 from support.scenes import LENGTH, RADIUS, WIDTH, Position, clear, placeable
-from support.truth.model import World
+from support.truth.model import RealWorld, World
 from support.truth.strike import Stroke
 
 import physics
@@ -16,9 +16,18 @@ SAME_NAMES = (
 )
 
 
+REAL_NAMES = (
+    *("nose_height", "corner_cut", "side_cut", "corner_shelf", "side_shelf", "corner_hole_radius", "side_hole_radius"),
+    *("horn_radius", "cushion_width", "ball_mass", "cue_end_mass", "mu_tip", "e_tip", "cushion", "e_cushion"),
+    *("mu_cushion", "ball"),
+)
+
+
 def world_of(table: physics.Table) -> World:
     """The truth engine's constants for a table of the engine under test."""
     values = table.to_dict()
+    if isinstance(table, physics.RealTable):
+        return RealWorld(**{name: values[name] for name in (*SAME_NAMES, *REAL_NAMES)})
     return World(historical=values["collisions"] == "fastfiz", **{name: values[name] for name in SAME_NAMES})
 
 

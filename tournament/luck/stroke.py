@@ -82,7 +82,7 @@ def stroke_luck(
     if isinstance(draws, bool) or not isinstance(draws, int) or draws < 2:
         raise ValueError(f"draws = {draws!r}: must be an integer of at least 2")
     seat = before.turn
-    fresh = [noise.perturb(action.shot, key, before.stroke * draws + index) for index in range(draws)]
+    fresh = [noise.perturb(action.shot, key, before.stroke * draws + index, rules.table) for index in range(draws)]
     games = _outcomes(rules, before, action, [action.shot, *fresh])
     noiseless, *values = (value(game, seat, noise.level) for game in games)
     return StrokeLuck(

@@ -111,7 +111,7 @@ def meet_corners(s, path, best):
 
 
 @small_kernel
-def meet_boundary(s, path, lasts):
+def meet_octagon(s, path, lasts):
     """First cushion or mouth a moving ball reaches within ``lasts``, counting from now; NOTHING if none."""
     store_integer(s.k, at.CUSHION_LOOKS, load_integer(s.k, at.CUSHION_LOOKS) + 1)
     best = meet_lines(s, path, Coming(lasts, at.NOTHING, 0))

@@ -31,7 +31,7 @@ def reaches(gap, speed, half, lasts):
 
 
 @small_kernel
-def may_lie(s, x, y, slack):
+def may_lie_inside(s, x, y, slack):
     """Whether a centre may rest at (x, y), from the table's centre: on a cushion line, but not on a mouth line.
 
     ``slack`` (m) off a cushion line counts as on it.

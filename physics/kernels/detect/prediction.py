@@ -9,11 +9,16 @@ import math
 
 from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store, store_integer
-from physics.kernels.detect.boundary import Coming, meet_boundary
+from physics.kernels.detect.boundary import Coming, meet_octagon
 from physics.kernels.detect.contact import contact
+from physics.kernels.detect.mouths import meet_rails
 from physics.kernels.motion import moves
 from physics.kernels.path import path_of, seen_from
 from physics.kernels.tolerances import TOUCH
+from physics.kernels.workspace import by_table
+
+meet_boundary = by_table(meet_octagon, meet_rails)
+"""``meet_boundary(s, path, lasts)``: the first Coming event at cushions, mouths, jaws or holes within ``lasts``."""
 
 FOREVER = 1e6
 """s. The filter's horizon for a ball without an event of its own: finite, so that 0 m/s times it is 0 m."""

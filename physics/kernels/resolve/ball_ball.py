@@ -6,6 +6,8 @@ from typing import NamedTuple
 from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, plain, small_kernel, store
 from physics.kernels.motion import moves
+from physics.kernels.resolve.pair_laws import friction
+from physics.kernels.workspace import by_table
 
 HISTORICAL_FRICTION = 0.01
 """The historical engine's factor k |B| / v_n."""
@@ -70,6 +72,21 @@ def part(s, touch, change, shift):
 
 
 @small_kernel
+def constant_friction(s, _slip):
+    """Coefficient of friction between balls, the table's."""
+    return load(s.p, at.P_MU_BALL)
+
+
+@small_kernel
+def friction_by_law(s, slip):
+    """Coefficient of friction between balls that slip at ``slip`` m/s, by the table's law."""
+    return friction(slip) if load(s.p, at.P_BALL_LAW) == at.ALCIATORE else load(s.p, at.P_MU_BALL)
+
+
+ball_friction = by_table(constant_friction, friction_by_law)
+
+
+@small_kernel
 def rub(s, touch, normal_change, share, shift):
     """Friction of one contact whose normal impulse changes each ball's velocity by ``normal_change`` (m/s).
 
@@ -91,7 +108,7 @@ def rub(s, touch, normal_change, share, shift):
         return
     # An impulse J_t changes the slip by J_t / m for each ball's speed and by R (R J_t) / I = 5 J_t / 2m for each
     # ball's spin, 7 J_t / m together: m |slip| / 7 ends it.
-    size = min(load(s.p, at.P_MU_BALL) * normal_change, slip / (7.0 * share))
+    size = min(ball_friction(s, slip) * normal_change, slip / (7.0 * share))
     part_of_slip = size / slip
     push_t = part_of_slip * slip_t
     push_z = part_of_slip * slip_z
@@ -163,9 +180,24 @@ def collide_historically(s, touch, j_rests):
 
 
 @small_kernel
+def is_historical(s):
+    """Whether two balls collide by the historical law."""
+    return load(s.p, at.P_HISTORICAL) != 0.0
+
+
+@small_kernel
+def is_fastfiz(s):
+    """The same on a table with jaws."""
+    return load(s.p, at.P_BALL_LAW) == at.FASTFIZ
+
+
+collides_historically = by_table(is_historical, is_fastfiz)
+
+
+@small_kernel
 def push_alone(s, touch, closing):
     """The collision of two balls that share it with no other, by the table's law."""
-    if load(s.p, at.P_HISTORICAL) == 0.0:
+    if not collides_historically(s):
         collide(s, touch, closing)
     elif moves(load_integer(s.k, at.MOTION + touch.i)):
         collide_historically(s, touch, int(not moves(load_integer(s.k, at.MOTION + touch.j))))

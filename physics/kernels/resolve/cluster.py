@@ -15,11 +15,21 @@ from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store_integer
 from physics.kernels.recording import note_contact, note_cushion, record
 from physics.kernels.resolve.ball_ball import approach, push_alone, touch_of
+from physics.kernels.resolve.boundary import (
+    hold,
+    is_leaving,
+    is_same,
+    rebound,
+    report,
+    returns_at_once,
+    speed_towards,
+    stop,
+    touched_cushion,
+)
 from physics.kernels.resolve.cloth import restate
-from physics.kernels.resolve.cushion import hold, rebound, stop, towards_cushion
 from physics.kernels.resolve.impulses import push_pairs, settle_slow_pairs
-from physics.kernels.resolve.resting import energy, lay_still, part_pressed_pairs, returns_at_once, scale_down
-from physics.kernels.resolve.touching import bring, gather, neighbours, neighbours_of_two, pair, touched_cushion
+from physics.kernels.resolve.resting import energy, lay_still, part_pressed_pairs, scale_down
+from physics.kernels.resolve.touching import bring, gather, neighbours, neighbours_of_two, pair
 from physics.kernels.tolerances import ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION, STOP_BELOW
 
 UNSETTLED = -1
@@ -34,8 +44,7 @@ def free_from_cushions(s, members):
         i = lowest_bit(rest)
         rest &= rest - 1
         cushion = load_integer(s.k, at.FROZEN + i)
-        speed = towards_cushion(s, cushion, at.VX, i)
-        if speed < 0.0 or (speed == 0.0 and towards_cushion(s, cushion, at.HX, i) < 0.0):
+        if is_leaving(s, i, cushion):
             store_integer(s.k, at.FROZEN_BALLS, load_integer(s.k, at.FROZEN_BALLS) & ~(1 << i))
 
 
@@ -66,8 +75,8 @@ def rebound_and_report(s, i, cushion, time):
     """A rail collision of ball ``i``, recorded."""
     rebound(s, i, cushion)
     restate(s, 1 << i)
-    event = record(s, time, plain(at.RAIL_COLLISION), i, cushion)
-    if not (load_integer(s.k, at.FROZEN_BALLS) >> i & 1 and load_integer(s.k, at.FROZEN + i) == cushion):
+    event = report(s, i, cushion, time)
+    if not (load_integer(s.k, at.FROZEN_BALLS) >> i & 1 and is_same(s, load_integer(s.k, at.FROZEN + i), cushion)):
         note_cushion(s, i, event)
 
 
@@ -80,7 +89,7 @@ def rebound_approaching(s, members, time):
         i = lowest_bit(rest)
         rest &= rest - 1
         cushion = touched_cushion(s, i)
-        if cushion != at.NO_CUSHION and towards_cushion(s, cushion, at.VX, i) > SOFT_CUSHION:
+        if cushion != at.NO_CUSHION and speed_towards(s, i, cushion) > SOFT_CUSHION:
             rebound_and_report(s, i, cushion, time)
             changed |= 1 << i
     return changed
@@ -101,7 +110,7 @@ def hold_at_cushions(s, members, also_returning):
         rest &= rest - 1
         cushion = touched_cushion(s, i)
         if cushion != at.NO_CUSHION:
-            speed = towards_cushion(s, cushion, at.VX, i)
+            speed = speed_towards(s, i, cushion)
             soft = SLOW_APPROACH < speed <= SOFT_CUSHION
             if soft or (also_returning != 0 and returns_at_once(s, i, cushion)):
                 hold(s, i, cushion)
@@ -172,7 +181,7 @@ def settle_cluster(s, i, time):
 @small_kernel
 def meet_cushion_alone(s, i, cushion, time):
     """A ball that touches nothing but a cushion; whether that settles it."""
-    if towards_cushion(s, cushion, at.VX, i) <= SOFT_CUSHION:
+    if speed_towards(s, i, cushion) <= SOFT_CUSHION:
         return False
     rebound_and_report(s, i, cushion, time)
     free_from_cushions(s, 1 << i)

@@ -5,18 +5,9 @@ import math
 from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store
 from physics.kernels.resolve.ball_ball import approach
-from physics.kernels.resolve.cushion import towards_cushion
 from physics.kernels.resolve.impulses import linked_to, push_group
 from physics.kernels.resolve.touching import listed, pair
 from physics.kernels.tolerances import PARTING_SHARE, PARTING_SLACK, PRESSING, SLOW_APPROACH, STILL, STOP_BELOW
-
-
-@small_kernel
-def returns_at_once(s, i, cushion):
-    """Whether ball ``i``'s own acceleration brings it back to a cushion it touches within the rest time."""
-    half = towards_cushion(s, cushion, at.HX, i)
-    # gap(t) = -v t - half t^2 with v the speed towards it: 0 again at t = -v / half
-    return half > 0.0 and -towards_cushion(s, cushion, at.VX, i) < half * load(s.p, at.P_REST_TIME)
 
 
 @small_kernel

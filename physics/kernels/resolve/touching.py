@@ -3,7 +3,6 @@
 from physics.kernels import layout as at
 from physics.kernels.advance import advance
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store, store_integer
-from physics.kernels.motion import on_table
 from physics.kernels.path import along
 from physics.kernels.recording import note_crossing
 from physics.kernels.resolve.ball_ball import Touch, touch_of
@@ -108,19 +107,3 @@ def listed(s, n):
     """The touching pair ``n``."""
     i, j = pair(s, n)
     return Touch(i, j, load(s.w, at.NORMAL_X + n), load(s.w, at.NORMAL_Y + n))
-
-
-@small_kernel
-def touched_cushion(s, i):
-    """Cushion that ball ``i`` touches, or NO_CUSHION; a side mouth is none. At most one: the corners are cut off."""
-    if not on_table(load_integer(s.k, at.MOTION + i)):
-        return at.NO_CUSHION
-    x = load(s.w, at.X + i)
-    y = load(s.w, at.Y + i)
-    line_x = load(s.p, at.P_LINE_X) - TOUCH
-    line_y = load(s.p, at.P_LINE_Y) - TOUCH
-    if abs(x) >= line_x and abs(y) >= load(s.p, at.P_SIDE):
-        return at.EAST if x > 0.0 else at.WEST
-    if abs(y) >= line_y:
-        return at.NORTH if y > 0.0 else at.SOUTH
-    return at.NO_CUSHION

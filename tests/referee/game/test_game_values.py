@@ -139,7 +139,7 @@ def test_action_from_unknown_keys_or_bad_shot() -> None:
     with pytest.raises(InvalidAction, match="an object"):
         Action.from_dict(["shot"])  # type: ignore[arg-type]
     with pytest.raises(InvalidShot, match="v"):
-        Action.from_dict({"shot": {"v": 11.0, "phi": 0.0}})
+        Action.from_dict({"shot": {"v": "fast", "phi": 0.0}})
 
 
 def test_refusal_shows_nan_as_text() -> None:

@@ -11,6 +11,7 @@ from scipy import stats
 
 from physics.generator import SeededStream
 from physics.shot import FIELDS, Shot
+from physics.table import Table
 from referee.play import NoiseModel
 
 SEED = bytes(range(32))
@@ -76,6 +77,19 @@ def test_noisy_shots_are_in_range(shot, level, stroke):
     assert 0.0 <= noisy.phi < 360.0
     assert 0.0 <= noisy.theta <= 70.0
     assert 0.0 <= noisy.v <= 10.0
+
+
+def test_the_table_bounds_the_noise():
+    """A table with a greater speed and elevation lets noise go there; one with less does not."""
+    nine, slow = Table.nine_foot(), Table.nine_foot().replace(v_max=4.0, theta_max=20.0)
+    hard = Shot(11.99, 0.0, 84.9)
+    played = [NoiseModel(1.0).perturb(hard, SEED, stroke, nine) for stroke in range(60)]
+    assert {shot.v == 12.0 for shot in played} == {True, False}
+    assert {shot.theta == 85.0 for shot in played} == {True, False}
+    assert max(NoiseModel(1.0).perturb(SHOT, SEED, stroke, slow).v for stroke in range(60)) == 4.0
+    draws = np.random.default_rng(1).normal(size=(60, 5))
+    rows = NoiseModel(1.0).perturb_rows(np.tile([11.99, 0.0, 84.9, 0.0, 0.0], (60, 1)), draws, nine)
+    assert (rows[:, 0].max(), rows[:, 2].max()) == (12.0, 85.0)
 
 
 def test_v_and_theta_are_clamped_and_phi_wraps():

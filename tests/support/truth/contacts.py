@@ -8,10 +8,12 @@ from dataclasses import dataclass, field
 from itertools import compress
 
 from mpmath import mpc, mpf
+from support.truth.detect import Boundary
 from support.truth.laws import apply_friction, bounce, normal, settle, tangential_impulse
 from support.truth.model import Ball, World, dot, energy
 from support.truth.motion import acceleration, classify
-from support.truth.octagon import Line, touched_cushions
+from support.truth.octagon import Line
+from support.truth.rails import Wall, kind_at, number_at
 
 MIN_CLOSING = mpf("1e-14")
 """Two touching balls that close with less than this acceleration (m/s^2) do not press on each other."""
@@ -35,7 +37,7 @@ class Cluster:
     world: World
     balls: list[Ball]
     pairs: list[Pair]
-    walls: list[tuple[Ball, Line]]
+    walls: list[tuple[Ball, Line | Wall]]
     acted: list[tuple[str, int, int]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -54,9 +56,9 @@ def touching(world: World, one: Ball, two: Ball) -> bool:
     return abs(two.position - one.position) - 2 * world.radius <= world.touch
 
 
-def make_cluster(world: World, sides: list[Line], balls: list[Ball]) -> Cluster:
+def make_cluster(world: World, boundary: Boundary, balls: list[Ball]) -> Cluster:
     pairs = [(p, q) for i, p in enumerate(balls) for q in balls[i + 1 :] if touching(world, p, q)]
-    walls = [(ball, line) for ball in balls for line in touched_cushions(world, sides, ball)]
+    walls = [(ball, line) for ball in balls for line in boundary.touched(ball)]
     return Cluster(world, balls, pairs, walls)
 
 
@@ -107,12 +109,12 @@ def ball_round(cluster: Cluster, acting: Sequence[Pair]) -> None:
         cluster.note("ball_collision", *sorted((one.number, two.number)))
 
 
-def wall_round(cluster: Cluster, acting: Sequence[tuple[Ball, Line]]) -> None:
+def wall_round(cluster: Cluster, acting: Sequence[tuple[Ball, Line | Wall]]) -> None:
     """Step 2: the cushion law above v_slow, settling below."""
     fast = [-dot(ball.velocity, line.inward) > cluster.world.v_slow for ball, line in acting]
     for ball, line in compress(acting, fast):
         bounce(cluster.world, ball, line)
-        cluster.note("rail_collision", ball.number, line.cushion)
+        cluster.note(kind_at(line.cushion), ball.number, number_at(line.cushion))
     if not all(fast):
         limit_from_now(cluster)
     for ball, line in compress(acting, (not f for f in fast)):
@@ -155,9 +157,12 @@ def reclassify(cluster: Cluster) -> None:
             cluster.classified[ball.number] = movement(ball)
 
 
-def returning_to_wall(world: World, ball: Ball, line: Line) -> bool:
-    """Its own acceleration would bring the ball back to the cushion within tau."""
+def returning_to_wall(world: World, ball: Ball, line: Line | Wall) -> bool:
+    """Its own acceleration would bring the ball back to the cushion within tau; round a horn it parts as it moves."""
     opening, inward = dot(ball.velocity, line.inward), dot(acceleration(world, ball), line.inward)
+    if isinstance(line, Wall):
+        across = ball.velocity - opening * line.inward
+        inward += dot(across, across) / line.bend
     return inward < 0 and opening < -inward * world.rest_time / 2
 
 

@@ -1,75 +1,17 @@
-"""When the next thing happens to a ball or a pair: transitions, cushions and mouths, ball-ball contacts.
+"""When the next thing happens to a ball or a pair: transitions, cushions and mouths, ball-ball contacts."""
 
-A float filter discards what stays clear by a wide margin (Bernstein coefficients bound a polynomial from below);
-everything else is decided in full precision.
-"""
+from collections.abc import Iterator
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import pairwise
-
-from mpmath import mp, mpc, mpf
-from support.truth.model import MOVING, Ball, Motion, World, dot
-from support.truth.motion import acceleration, lifetime
-from support.truth.octagon import Line, in_side_mouth
+from mpmath import mp, mpf
+from support.truth.model import MOVING, Ball, Motion, RealWorld, World, dot
+from support.truth.moments import Event, deflated, may_reach, moving_until, path, stays_clear
+from support.truth.motion import lifetime
+from support.truth.octagon import Line, in_side_mouth, lines, touched_cushions
+from support.truth.rails import Rails
 from support.truth.roots import first_fall
-
-CLEAR = 1e-7
-"""Margin of the float filter (m for lines, m^2 for squared distances): a million times its rounding."""
 
 STILL = 1e-30
 """m/s, m/s^2; a ball that runs along a cushion has no velocity and no acceleration across it but rounding."""
-
-ORDER = ("ball_collision", "rail_collision", "pocket_collision", "transition")
-
-
-@dataclass(frozen=True)
-class Event:
-    """Something predicted or recorded; ``other`` is a ball, cushion or pocket number, -1 if none."""
-
-    time: mpf
-    kind: str
-    ball: int
-    other: int = -1
-
-    def key(self) -> tuple[mpf, int, int, int]:
-        return self.time, ORDER.index(self.kind), self.ball, self.other
-
-
-def path(world: World, ball: Ball, time: mpf) -> tuple[mpc, mpc, mpc]:
-    """Position from ``time`` on as c + b t + a t^2."""
-    if ball.motion not in MOVING:
-        return ball.position, mpc(0), mpc(0)
-    a, t = acceleration(world, ball), time - ball.since
-    return ball.position + ball.velocity * t + a * t * t / 2, ball.velocity + a * t, a / 2
-
-
-def moving_until(world: World, ball: Ball) -> mpf:
-    return ball.since + lifetime(world, ball) if ball.motion in MOVING else mp.inf
-
-
-def stays_clear(points: Sequence[float], depth: int = 6) -> bool:
-    """Proof that a polynomial with these Bernstein coefficients stays above ``CLEAR``."""
-    if min(points) > CLEAR:
-        return True
-    if depth == 0 or min(points[0], points[-1]) <= CLEAR:
-        return False
-    left, right, row = [], [], list(points)
-    while row:
-        left.append(row[0])
-        right.append(row[-1])
-        row = [(p + q) / 2 for p, q in pairwise(row)]
-    return stays_clear(left, depth - 1) and stays_clear(right[::-1], depth - 1)
-
-
-def may_touch(world: World, c: mpc, b: mpc, a: mpc, span: float) -> bool:
-    """Float filter for a pair: can |c + b t + a t^2| come near 2R within the span?"""
-    p0 = complex(c)
-    p1, p2 = p0 + complex(b) * span / 2, p0 + complex(b) * span + complex(a) * span**2
-    gap = 4 * float(world.radius) ** 2
-    d01, d12 = (p0 * p1.conjugate()).real, (p1 * p2.conjugate()).real
-    middle = ((p0 * p2.conjugate()).real + 2 * abs(p1) ** 2) / 3
-    return not stays_clear([x - gap for x in (abs(p0) ** 2, d01, middle, d12, abs(p2) ** 2)])
 
 
 def pair_contact(world: World, one: Ball, two: Ball, time: mpf) -> Event | None:
@@ -80,7 +22,7 @@ def pair_contact(world: World, one: Ball, two: Ball, time: mpf) -> Event | None:
     p, q = path(world, one, time), path(world, two, time)
     c, b, a = (y - x for x, y in zip(p, q, strict=True))
     touch = abs(c) - 2 * world.radius <= world.touch
-    if not touch and not may_touch(world, c, b, a, float(end - time)):
+    if not touch and not may_reach(c, b, a, float(end - time), 2 * float(world.radius)):
         return None
     quartic = [
         dot(c, c) - 4 * world.radius**2,
@@ -93,11 +35,6 @@ def pair_contact(world: World, one: Ball, two: Ball, time: mpf) -> Event | None:
         quartic = deflated(quartic, dot(b, c) / abs(c), world)
     t = first_fall(quartic, end - time)
     return None if t is None else Event(time + t, "ball_collision", *sorted((one.number, two.number)))
-
-
-def deflated(p: list[mpf], opening: mpf, world: World) -> list[mpf]:
-    """A touch at time 0 taken out: a single root if the bodies part, a double root if they rest on each other."""
-    return p[2:] if abs(opening) <= world.v_creep else p[1:]
 
 
 def line_contact(world: World, ball: Ball, line: Line, time: mpf) -> Event | None:
@@ -130,10 +67,35 @@ def horn_contact(world: World, ball: Ball, line: Line, time: mpf) -> Event | Non
     return None if t is None else Event(time + t, "pocket_collision", ball.number, line.side_pocket)
 
 
-def own_event(world: World, sides: Sequence[Line], ball: Ball, time: mpf) -> Event | None:
+class Octagon:
+    """The boundary of a table with straight mouths."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self.sides = lines(world)
+
+    def meets(self, ball: Ball, time: mpf) -> Iterator[Event]:
+        """Each side's first contact with the ball from ``time`` on."""
+        for line in self.sides:
+            event = line_contact(self.world, ball, line, time)
+            if event:
+                yield event
+
+    def touched(self, ball: Ball) -> Iterator[Line]:
+        """Cushions the ball touches."""
+        return touched_cushions(self.world, self.sides, ball)
+
+
+Boundary = Octagon | Rails
+
+
+def boundary_of(world: World) -> Boundary:
+    return Rails(world) if isinstance(world, RealWorld) else Octagon(world)
+
+
+def own_event(world: World, boundary: Boundary, ball: Ball, time: mpf) -> Event | None:
     """The ball's next transition, cushion or pocket."""
     if ball.motion in (Motion.STATIONARY, Motion.POCKETED):
         return None
     end = Event(ball.since + lifetime(world, ball), "transition", ball.number)
-    meets = [line_contact(world, ball, line, time) for line in sides]
-    return min([end, *(event for event in meets if event)], key=Event.key)
+    return min([end, *boundary.meets(ball, time)], key=Event.key)

@@ -5,11 +5,11 @@ from dataclasses import dataclass, field, replace
 
 from mpmath import mp, mpf
 from support.truth.contacts import Cluster, make_cluster, resolve, touching
-from support.truth.detect import Event, own_event, pair_contact
+from support.truth.detect import Octagon, boundary_of, own_event, pair_contact
 from support.truth.laws import bounce, historical_collision
 from support.truth.model import Ball, Motion, World
+from support.truth.moments import Event
 from support.truth.motion import advance, classify, end_of_motion
-from support.truth.octagon import Line, lines
 from support.truth.strike import Stroke, strike
 
 
@@ -34,7 +34,7 @@ class Shot:
     records: list[Record] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.sides: list[Line] = lines(self.world)
+        self.boundary = boundary_of(self.world)
         self.own: dict[int, Event | None] = {}
         self.pairs: dict[tuple[int, int], Event | None] = {}
         self.predict(self.balls)
@@ -46,7 +46,7 @@ class Shot:
         """Renew what is known about the future of these balls."""
         changed = set(numbers)
         for i in changed:
-            self.own[i] = own_event(self.world, self.sides, self.balls[i], self.time)
+            self.own[i] = own_event(self.world, self.boundary, self.balls[i], self.time)
         for i, one in self.balls.items():
             for j, two in self.balls.items():
                 if i < j and (i in changed or j in changed):
@@ -67,7 +67,7 @@ class Shot:
             members += [b for b in here.values() if b not in members and touching(self.world, ball, b)]
         members.sort(key=lambda ball: ball.number)
         self.balls.update({ball.number: ball for ball in members})
-        return make_cluster(self.world, self.sides, members)
+        return make_cluster(self.world, self.boundary, members)
 
     def record(self, kind: str, ball: int, other: int, changed: Iterable[int]) -> None:
         states = tuple(self.balls[i].copy() for i in sorted(changed))
@@ -118,7 +118,8 @@ class Shot:
         if event.kind == "ball_collision":
             historical_collision(self.world, self.balls[event.ball], self.balls[event.other])
         else:
-            bounce(self.world, self.balls[event.ball], self.sides[event.other])
+            assert isinstance(self.boundary, Octagon)
+            bounce(self.world, self.balls[event.ball], self.boundary.sides[event.other])
             classify(self.world, self.balls[event.ball])
         self.record(event.kind, event.ball, event.other, involved)
         self.predict(involved)

@@ -1,9 +1,11 @@
 """What one collision does: two balls, a cushion; the consistent set and the historical one (PHYSICS "Collisions")."""
 
-from mpmath import mpc, mpf
-from support.truth.model import Ball, World, dot, unit
+from mpmath import exp, mpc, mpf
+from support.truth.cushions import han, mathavan
+from support.truth.model import Ball, RealWorld, World, dot, unit
 from support.truth.motion import classify
 from support.truth.octagon import Line
+from support.truth.rails import Wall
 
 Space = tuple[mpc, mpf]
 """A vector in space: plane part, vertical part."""
@@ -29,6 +31,13 @@ def length(s: Space) -> mpf:
     return (dot(s[0], s[0]) + s[1] ** 2) ** mpf("0.5")
 
 
+def ball_friction(world: World, slip: mpf) -> mpf:
+    """Coefficient between two balls: the table's, or Alciatore's, which falls with the slip (TP A-14)."""
+    if isinstance(world, RealWorld) and world.ball == "alciatore":
+        return mpf("9.951e-3") + mpf("0.108") * exp(-mpf("1.088") * slip)
+    return world.mu_ball
+
+
 def tangential_impulse(world: World, one: Ball, two: Ball, n: mpc, j_normal: mpf, shared: int) -> Space:
     """Friction on ball 1 per mass: against the slip, min(mu J_n, |slip| / (7 shared))."""
     plane, vertical = contact_slip(world, one, two, n)
@@ -36,7 +45,7 @@ def tangential_impulse(world: World, one: Ball, two: Ball, n: mpc, j_normal: mpf
     size = length(tangent)
     if size == 0:
         return mpc(0), mpf(0)
-    scale = -min(world.mu_ball * j_normal, size / (7 * shared)) / size
+    scale = -min(ball_friction(world, size) * j_normal, size / (7 * shared)) / size
     return tangent[0] * scale, tangent[1] * scale
 
 
@@ -50,8 +59,11 @@ def apply_friction(world: World, one: Ball, two: Ball, n: mpc, impulse: Space) -
         ball.w_z += 5 / (2 * world.radius) * vertical
 
 
-def bounce(world: World, ball: Ball, line: Line) -> None:
-    """Cushion: parallel 0.9, perpendicular -0.6, all spin x 0.1."""
+def bounce(world: World, ball: Ball, line: Line | Wall) -> None:
+    """A cushion, by its law; ``factors``: parallel 0.9, perpendicular -0.6, all spin x 0.1."""
+    if isinstance(world, RealWorld) and world.cushion != "factors":
+        {"han": han, "mathavan": mathavan}[world.cushion](world, ball, line.inward)
+        return
     v_n = dot(ball.velocity, line.inward)
     along = ball.velocity - v_n * line.inward
     ball.velocity = world.cushion_parallel * along - world.cushion_perpendicular * v_n * line.inward
@@ -59,7 +71,7 @@ def bounce(world: World, ball: Ball, line: Line) -> None:
     ball.w_z *= world.cushion_spin
 
 
-def settle(ball: Ball, line: Line) -> None:
+def settle(ball: Ball, line: Line | Wall) -> None:
     """A cushion reached too slowly to bounce: no velocity across it, no spin component along it."""
     along = 1j * line.inward
     ball.velocity -= dot(ball.velocity, line.inward) * line.inward

@@ -86,6 +86,33 @@ class World:
         return self.corner_mouth / mp.sqrt(2)
 
 
+@dataclass(frozen=True)
+class RealWorld(World):
+    """Constants of a table with jaws (FLIGHT, sections 3 and 5)."""
+
+    nose_height: float = 0.03629025
+    corner_cut: float = 142.0
+    side_cut: float = 104.0
+    corner_shelf: float = 0.041275
+    side_shelf: float = 0.0047625
+    corner_hole_radius: float = 0.0635
+    side_hole_radius: float = 0.0635
+    horn_radius: float = 0.00635
+    cushion_width: float = 0.0508
+    cue_end_mass: float = 0.0056699
+    mu_tip: float = 0.6
+    e_tip: float = 1.0
+    cushion: str = "han"
+    e_cushion: float = 0.85
+    mu_cushion: float = 0.2
+    ball: str = "alciatore"
+
+    @property
+    def rho(self) -> mpf:
+        """How near a nose's line the centre comes, in plan: its nose is h - R above the centre."""
+        return mp.sqrt(self.radius**2 - (self.nose_height - self.radius) ** 2)
+
+
 def dot(a: mpc, b: mpc) -> mpf:
     return a.real * b.real + a.imag * b.imag
 

@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 
 from mpmath import mp, mpc, mpf
-from support.truth.model import Ball, World
+from support.truth.model import Ball, RealWorld, World
 from support.truth.motion import classify
+from support.truth.squirt import struck_exactly
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,9 @@ class Stroke:
 
 def strike(world: World, ball: Ball, stroke: Stroke) -> None:
     """F = 2 m V / (1 + m/M + 5/(2 R^2) [a^2 + (b C - c S)^2]) and what follows from it."""
+    if isinstance(world, RealWorld):
+        strike_with_end_mass(world, ball, stroke)
+        return
     a, b, m, radius = mpf(stroke.a) / 1000, mpf(stroke.b) / 1000, world.ball_mass, world.radius
     theta, phi = mp.radians(mpf(stroke.theta)), mpf(stroke.phi) / 180
     cos_theta, sin_theta = mp.cos(theta), mp.sin(theta)
@@ -35,4 +39,15 @@ def strike(world: World, ball: Ball, stroke: Stroke) -> None:
     ball.velocity = force * cos_theta / m * forward
     ball.w_xy = force / inertia * (lever * 1j * forward + a * sin_theta * forward)
     ball.w_z = force / inertia * a * cos_theta
+    classify(world, ball)
+
+
+def strike_with_end_mass(world: RealWorld, ball: Ball, stroke: Stroke) -> None:
+    """Squirt and miscue; the vertical part is absorbed by the cloth."""
+    (x, y, _), (p, q, r), _ = struck_exactly(
+        *(world.radius, mpf(stroke.phi), mpf(stroke.theta), mpf(stroke.a) / 1000, mpf(stroke.b) / 1000),
+        *(world.ball_mass / world.cue_mass, world.cue_end_mass / world.ball_mass, world.e_tip, world.mu_tip),
+        mpf(stroke.v),
+    )
+    ball.velocity, ball.w_xy, ball.w_z = mpc(x, y), mpc(p, q), r
     classify(world, ball)
