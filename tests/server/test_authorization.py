@@ -18,7 +18,6 @@ LET_IN = {
     "GET /openapi.json": PUBLIC,
     "HEAD /openapi.json": PUBLIC,
     "GET /docs": PUBLIC,
-    "HEAD /docs": PUBLIC,
     "GET /healthz": PUBLIC,
     "HEAD /healthz": PUBLIC,
     "GET /metrics": PUBLIC,
