@@ -161,7 +161,7 @@ def organiser_digest(token: str) -> str:
     """SHA-256 (hex) of the organiser's token; raises `SettingsError` when it is short enough to guess."""
     if len(token) < SHORTEST_ORGANISER_TOKEN:
         raise SettingsError(
-            f"the organiser token has {len(token)} characters; allowed: at least {SHORTEST_ORGANISER_TOKEN}"
+            f"organiser_token = <{len(token)} characters>: must be at least {SHORTEST_ORGANISER_TOKEN} characters"
         )
     return hashlib.sha256(token.encode()).hexdigest()
 
@@ -169,8 +169,8 @@ def organiser_digest(token: str) -> str:
 def _require_database(url: str) -> None:
     is_file = url.startswith("sqlite:///") and url not in ("sqlite:///", "sqlite:///:memory:") and "?" not in url
     if not (is_file or url.startswith("postgresql://")):
-        allowed = "sqlite:///path (a file), postgresql://user@host/name"
-        raise SettingsError(f"database is {without_password(url)!r}; allowed: {allowed}")
+        allowed = "sqlite:///path (a file) or postgresql://user@host/name"
+        raise SettingsError(f"database = {without_password(url)!r}: must be {allowed}")
 
 
 def _networks(text: str) -> list[str]:
@@ -181,7 +181,7 @@ def _networks(text: str) -> list[str]:
             ipaddress.ip_network(each)
         except ValueError as error:
             allowed = "IP addresses and networks, such as 10.0.0.2, 10.1.0.0/16"
-            raise SettingsError(f"proxies is {text!r}; allowed: {allowed} ({error})") from error
+            raise SettingsError(f"proxies = {text!r}: must be {allowed} ({error})") from error
     return named
 
 
@@ -198,10 +198,10 @@ def _from_file(path: Path) -> dict[str, Any]:
     known = {each.name: type(each.default) for each in settable()} | {SECRET: str}
     for name, value in values.items():
         if name not in known:
-            raise SettingsError(f"{path}: there is no setting {name!r}; allowed: {', '.join(sorted(known))}")
+            raise SettingsError(f"{path}: setting {name!r}: must be one of {', '.join(sorted(known))}")
         allowed = (int, float) if known[name] is float else known[name]
         if not isinstance(value, allowed) or (isinstance(value, bool) and known[name] is not bool):
-            raise SettingsError(f"{path}: {name} is {value!r}; allowed: {_KINDS[known[name]]}")
+            raise SettingsError(f"{path}: {name} = {value!r}: must be {_KINDS[known[name]]}")
     return {name: float(value) if known[name] is float else value for name, value in values.items()}
 
 
@@ -223,7 +223,7 @@ def _parsed(name: str, text: str, kind: type) -> Any:
     try:
         return FLAGS[text.lower()] if kind is bool else kind(text)
     except (ValueError, KeyError) as error:
-        raise SettingsError(f"{name} is {text!r}; allowed: {_KINDS[kind]}") from error
+        raise SettingsError(f"{name} = {text!r}: must be {_KINDS[kind]}") from error
 
 
 def _check(each: Field[Any], value: Any) -> None:
@@ -233,9 +233,9 @@ def _check(each: Field[Any], value: Any) -> None:
     if isinstance(value, int | float):
         zero = each.metadata["zero"]
         if not (math.isfinite(value) and (value > 0 or (zero and value == 0))):
-            raise SettingsError(f"{each.name} is {value!r}; allowed: a finite number{'' if zero else ' above 0'}")
+            raise SettingsError(f"{each.name} = {value!r}: must be a finite number{'' if zero else ' above 0'}")
     elif (one_of := each.metadata["one_of"]) and value not in one_of:
-        raise SettingsError(f"{each.name} is {value!r}; allowed: {', '.join(one_of)}")
+        raise SettingsError(f"{each.name} = {value!r}: must be one of {', '.join(one_of)}")
 
 
 def _line(name: str, value: Any, sources: Mapping[str, str]) -> str:

@@ -20,7 +20,7 @@ MILLIMETRE = 1e-3
 """m: tip offsets of a shot come in millimetres."""
 
 
-class Stroke(NamedTuple):
+class CueStroke(NamedTuple):
     """A stroke as the physics takes it.
 
     Attributes:
@@ -38,7 +38,7 @@ class Stroke(NamedTuple):
     sin_theta: float
 
 
-class Cue(NamedTuple):
+class CueAxis(NamedTuple):
     """The cue's axis, a segment from the tip r - c d - a l at height R + b along (-C d, S).
 
     Attributes:
@@ -61,7 +61,7 @@ def stroke_of(v, phi, theta, a, b):
     """A stroke from v (m/s), phi and theta (deg), a and b (m)."""
     sin_phi, cos_phi = sine_cosine(phi)
     sin_theta, cos_theta = sine_cosine(theta)
-    return Stroke(v, theta, a, b, cos_phi, sin_phi, cos_theta, sin_theta)
+    return CueStroke(v, theta, a, b, cos_phi, sin_phi, cos_theta, sin_theta)
 
 
 @small_kernel
@@ -126,7 +126,7 @@ strike = by_table(strike_rigidly, strike_with_end)
 @small_kernel
 def cue_of(s, stroke, depth):
     """The cue as it lies at the stroke; ``depth``: c."""
-    return Cue(
+    return CueAxis(
         load(s.w, at.X) - depth * stroke.dx + stroke.a * stroke.dy,
         load(s.w, at.Y) - depth * stroke.dy - stroke.a * stroke.dx,
         load(s.p, at.P_RADIUS) + stroke.b,

@@ -57,8 +57,14 @@ def own_requirements(lock):
 
 
 def is_installed_as(locked, name):
-    """Whether the distribution is here in its locked version; another may have other requirements."""
-    return metadata.version(name) == locked[canonicalize_name(name)][0]
+    """Whether the distribution is here in its locked version; another may have other requirements.
+
+    The README's block installs without the locks: what only builds need, such as hatchling, is then not here at all.
+    """
+    try:
+        return metadata.version(name) == locked[canonicalize_name(name)][0]
+    except metadata.PackageNotFoundError:
+        return False
 
 
 def closure(lock):

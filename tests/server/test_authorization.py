@@ -17,6 +17,7 @@ VOID = ("unknown", "expired", "revoked")
 LET_IN = {
     "GET /openapi.json": PUBLIC,
     "HEAD /openapi.json": PUBLIC,
+    "GET /docs": PUBLIC,
     "GET /healthz": PUBLIC,
     "HEAD /healthz": PUBLIC,
     "GET /metrics": PUBLIC,
@@ -68,7 +69,7 @@ LET_IN = {
 }
 """Route to the roles that are let in; the match is running, the agent of the address is its mover."""
 
-UNPROTECTED = ("/openapi.json", "/healthz", "/readyz", "/metrics", "/", "/web/{name}")
+UNPROTECTED = ("/openapi.json", "/docs", "/healthz", "/readyz", "/metrics", "/", "/web/{name}")
 """Routes that do not look at a token at all."""
 
 

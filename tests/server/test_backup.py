@@ -65,7 +65,7 @@ def test_a_copy_made_under_load_is_restored_and_goes_on(own_server, table_at, tm
         ("sqlite:///{folder}/none.db", "copy.db", "there is no database"),
         ("sqlite:///{folder}/there.db", "there.db", "this one exists"),
         ("postgresql://user:secret@host/pool", "copy.db", "pg_dump"),
-        ("mysql://x", "copy.db", "allowed: sqlite:///path"),
+        ("mysql://x", "copy.db", "must be sqlite:///path"),
         ("sqlite:///{folder}/text.db", "copy.db", "file is not a database"),
         ("sqlite:///{folder}/there.db", "no/such/folder/copy.db", "No such file or directory"),
     ],

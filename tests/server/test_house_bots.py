@@ -203,5 +203,5 @@ def test_how_bots_are_named():
 
 @pytest.mark.parametrize("text", ["=greedy", "greedy=", "a;a", "a/b", "ö"])
 def test_settings_that_name_no_bots_are_refused(text):
-    with pytest.raises(SettingsError, match="allowed"):
+    with pytest.raises(SettingsError, match="must be"):
         parse(text)

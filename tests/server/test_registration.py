@@ -52,7 +52,7 @@ def test_a_named_proxy_is_believed_about_the_last_address_it_added(own_server):
 
 @pytest.mark.parametrize("bad", ["*", "proxy.example", "10.0.0.0/33", "127.0.0.1;10.0.0.1", "10.0.0.1/8"])
 def test_proxies_are_named_by_address(bad):
-    with pytest.raises(SettingsError, match=r"proxies is .*; allowed: IP addresses and networks"):
+    with pytest.raises(SettingsError, match=r"proxies = .*: must be IP addresses and networks"):
         Settings(proxies=bad)
 
 

@@ -67,9 +67,9 @@ def test_a_host_that_is_not_ours_is_an_error_in_words(tmp_path, host):
         ({"POOLIAD_DATABASE": "mysql://x"}, "mysql://x"),
         ({"POOLIAD_DATABASE": "sqlite://"}, "sqlite:///path"),
         ({"POOLIAD_DATABASE": "sqlite:///a.db?timeout=9"}, "sqlite:///path"),
-        ({"POOLIAD_BODY_LIMIT": "1e6"}, "POOLIAD_BODY_LIMIT is '1e6'; allowed: a whole number"),
-        ({"POOLIAD_TIMER_PERIOD": "-1"}, "timer_period is -1.0"),
-        ({"POOLIAD_BODY_SECONDS": "nan"}, "body_seconds is nan"),
+        ({"POOLIAD_BODY_LIMIT": "1e6"}, "POOLIAD_BODY_LIMIT = '1e6': must be a whole number"),
+        ({"POOLIAD_TIMER_PERIOD": "-1"}, "timer_period = -1.0"),
+        ({"POOLIAD_BODY_SECONDS": "nan"}, "body_seconds = nan"),
         ({"POOLIAD_ORGANISER_TOKEN": "secret"}, "at least 32"),
     ],
 )

@@ -51,17 +51,17 @@ def test_secrets_are_masked_in_what_is_printed():
 @pytest.mark.parametrize(
     ("text", "named"),
     [
-        ("bodylimit = 1", "no setting 'bodylimit'; allowed: "),
-        ("body_limit = 1.5", "body_limit is 1.5; allowed: a whole number"),
-        ("body_limit = true", "body_limit is True; allowed: a whole number"),
-        ("public_reads = 1", "public_reads is 1; allowed: true or false"),
-        ("timer_period = 0", "timer_period is 0.0; allowed: a finite number above 0"),
-        ("lag_turn = -1", "lag_turn is -1.0; allowed: a finite number"),
-        ("timer_period = nan", "timer_period is nan"),
-        ('registration = "maybe"', "registration is 'maybe'; allowed: open, invited, closed"),
+        ("bodylimit = 1", "setting 'bodylimit': must be one of "),
+        ("body_limit = 1.5", "body_limit = 1.5: must be a whole number"),
+        ("body_limit = true", "body_limit = True: must be a whole number"),
+        ("public_reads = 1", "public_reads = 1: must be true or false"),
+        ("timer_period = 0", "timer_period = 0.0: must be a finite number above 0"),
+        ("lag_turn = -1", "lag_turn = -1.0: must be a finite number"),
+        ("timer_period = nan", "timer_period = nan"),
+        ('registration = "maybe"', "registration = 'maybe': must be one of open, invited, closed"),
         (f'{SECRET} = "short"', "at least 32"),
         ("timer_period = ", "no TOML file"),
-        ("[timer]\nperiod = 1", "no setting 'timer'"),
+        ("[timer]\nperiod = 1", "setting 'timer': must be"),
     ],
 )
 def test_a_bad_setting_in_the_file_is_named(tmp_path, text, named):
@@ -72,7 +72,7 @@ def test_a_bad_setting_in_the_file_is_named(tmp_path, text, named):
 
 @pytest.mark.parametrize(
     ("name", "text", "named"),
-    [("PUBLIC_READS", "perhaps", "POOLIAD_PUBLIC_READS is 'perhaps'; allowed: true or false")],
+    [("PUBLIC_READS", "perhaps", "POOLIAD_PUBLIC_READS = 'perhaps': must be true or false")],
 )
 def test_a_bad_variable_is_named(name, text, named):
     with pytest.raises(SettingsError, match=named):

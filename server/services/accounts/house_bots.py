@@ -44,7 +44,7 @@ def parse(text: str) -> tuple[HouseBot, ...]:
     """The bots of `random;greedy;mine=stdio:perl mine.pl`; raises `SettingsError`."""
     bots = tuple(_bot(entry.strip()) for entry in re.split("[;\n]", text) if entry.strip())
     if len({skeleton(bot.name) for bot in bots}) != len(bots):
-        raise SettingsError(f"house_bots is {text!r}; allowed: every name once, and none that looks like another")
+        raise SettingsError(f"house_bots = {text!r}: must be different names, none of which looks like another")
     return bots
 
 
@@ -55,7 +55,7 @@ def _bot(entry: str) -> HouseBot:
     except ValidationError:
         name = ""
     if not name or (equals and not agent):
-        raise SettingsError(f"house_bots has {entry!r}; allowed: NAME or NAME=AGENT, apart by semicolons")
+        raise SettingsError(f"house_bots = {entry!r}: must be NAME or NAME=AGENT, separated by semicolons")
     return HouseBot(name, agent or name)
 
 
@@ -70,7 +70,7 @@ def enter(context: Context, bot: HouseBot) -> str:
         if not (row.house and row.name == bot.name):
             allowed = f"another name for it, such as house-{bot.name}={bot.agent}"
             whose = f"the name of an agent that registered, {row.name!r}, or one that looks like it"
-            raise SettingsError(f"house_bots has {bot.name!r}, {whose}; allowed: {allowed}")
+            raise SettingsError(f"house_bots = {bot.name!r}, {whose}: must be {allowed}")
         return str(row.id)
 
 
@@ -126,7 +126,7 @@ def require_no_other(writing: Writing, request: MatchRequest, challenger: str | 
     _hold_places(writing, bot)
     other = writing.connection.scalar(_challenges(bot).where(matches.c.challenger == challenger).limit(1))
     if other is not None:
-        raise WrongStatus(f"the challenge {other} to the same house bot waits for a place; allowed: one, or abort it")
+        raise WrongStatus(f"the challenge {other} to the same house bot waits for a place: must be one; abort it")
 
 
 def has_place(writing: Writing, match: Row[Any]) -> bool:

@@ -29,7 +29,7 @@ compiled = numba.njit(error_model="numpy", nogil=True, cache=bool(numba.config.C
 inner = numba.njit(error_model="numpy", nogil=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
 
-class View(NamedTuple):
+class Layout(NamedTuple):
     """One table: ``table``, its numbers (`engine.table_row`), and ``row`` (16, 2) m, where its balls lie."""
 
     table: Any
@@ -61,7 +61,7 @@ class Lane(NamedTuple):
     fan: Fan
 
 
-class Cue(NamedTuple):
+class LevelCue(NamedTuple):
     """A level cue along (ux, uy); seen from the cue ball's centre its tip is `depth` back and `tip` up, m."""
 
     ux: float
@@ -243,7 +243,7 @@ def survey(table, positions, sigma, hand, kitchen, out):
     """
     out[:] = 0.0
     for n in range(positions.shape[0]):
-        view = View(table, positions[n])
+        view = Layout(table, positions[n])
         row = view.row
         for group in range(2):
             mine = out[n, group]
@@ -275,7 +275,7 @@ def list_pots(table, positions, targets, sigma, found):
     most = ball.shape[1]
     chance[:] = 0.0
     for n in range(positions.shape[0]):
-        view = View(table, positions[n])
+        view = Layout(table, positions[n])
         for one in range(1, 16):
             if not targets[n, one] or view.row[one, 0] != view.row[one, 0]:
                 continue
@@ -341,7 +341,7 @@ def elevations(table, positions, which, strokes, aside, out):
         least = 0.0
         for turn in (0.0, -aside, aside):
             angle = math.radians(phi[n] + turn)
-            cue = Cue(math.cos(angle), math.sin(angle), depth, tip, table[at.CUE_LENGTH])
+            cue = LevelCue(math.cos(angle), math.sin(angle), depth, tip, table[at.CUE_LENGTH])
             for other in range(1, 16):
                 if row[other, 0] == row[other, 0]:
                     dx = row[other, 0] - row[0, 0] - side * cue.uy
