@@ -20,7 +20,7 @@ from physics.kernels.advance import advance
 from physics.kernels.compiling import kernel, load, load_integer, row, small_kernel, store
 from physics.kernels.detect.contact import contact_time
 from physics.kernels.detect.line import may_lie
-from physics.kernels.loop import go_on, play
+from physics.kernels.loop import play
 from physics.kernels.motion import on_table
 from physics.kernels.path import Path
 from physics.kernels.recording import write_state
@@ -94,16 +94,13 @@ def simulate_rows(p, work, states, shots, final, pockets, facts, trace, counters
     ``trace``: events of one shot, as many as it has room for. ``counters``: (n, N_COUNTERS) int64, filled with the work
     done (predictions, pairs past the filter, contacts solved, boundary looks), or of no rows.
     """
-    moving = states.shape[1] != 2 * at.LANES
+    moving = int(states.shape[1] != 2 * at.LANES)
     rows = trace.shape[1] // at.TRACE_WIDTH
     for n in range(final.shape[0]):
         given = row(states, n if states.shape[0] > 1 else 0)
         s = workspace(p, work, row(facts, n), trace)
         reset(s, rows, EVENT_LIMIT)
-        if moving:
-            go_on(s, given)
-        else:
-            play(s, given, row(shots, n))
+        play(s, moving, given, row(shots, n if moving == 0 else 0))
         collect(s, given, at.STATE_WIDTH if moving else 2, row(final, n))
         for i in range(at.LANES):
             absent = load_integer(s.k, at.MOTION + i) == at.ABSENT
