@@ -6,6 +6,7 @@ Not imported: run by its path, so that ``physics`` may be another commit's. It u
 
 import ctypes
 import hashlib
+import importlib
 import json
 import mmap
 import pickle
@@ -14,8 +15,6 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 START_INSTRUMENTATION, STOP_INSTRUMENTATION, DUMP_STATISTICS = 0x43540004, 0x43540005, 0x43540000
 """Callgrind's client requests (callgrind.h)."""
@@ -41,6 +40,7 @@ def client_request() -> Callable[[int], None]:
 
 def main(path: str) -> None:
     """Answer commands until the input ends."""
+    importlib.import_module("numba")  # no part of compiling
     started = time.process_time()
     import physics
     from physics.engine import kernels
@@ -60,13 +60,13 @@ def main(path: str) -> None:
             works[name]()
             answer(time.thread_time() - began)
         elif command == "bits":
-            answer(works[name]())
+            answer(hash_of(works[name]()))
         elif command == "count":
             works[name]()
             request(START_INSTRUMENTATION)
             works[name]()
+            request(DUMP_STATISTICS)  # before the stop, which forgets
             request(STOP_INSTRUMENTATION)
-            request(DUMP_STATISTICS)
             answer(None)
 
 
@@ -75,29 +75,29 @@ def answer(value: Any) -> None:
     print(json.dumps(value), flush=True)
 
 
-def work_of(physics: Any, scene: dict[str, Any]) -> Callable[[], str]:
-    """A function that plays a scene and returns a hash of all its outputs."""
+def work_of(physics: Any, scene: dict[str, Any]) -> Callable[[], Any]:
+    """A function that plays a scene: a batch, or the results of single calls with their traces."""
     table = physics.Table.from_dict(scene["table"])
     if not scene["traced"]:
-        return lambda: hash_of_batch(physics.simulate_batch(table, scene["states"], scene["shots"]))
+        return lambda: physics.simulate_batch(table, scene["states"], scene["shots"])
     played = [
         (physics.TableState.from_positions(state), physics.Shot(*shot))
         for state, shot in zip(scene["states"], scene["shots"].tolist(), strict=True)
     ]
-    return lambda: hash_of_results([physics.simulate(table, state, shot) for state, shot in played])
+    return lambda: [physics.simulate(table, state, shot) for state, shot in played]
 
 
-def hash_of_batch(batch: Any) -> str:
-    """SHA-256 over positions, pockets, statuses and facts."""
-    arrays = (batch.positions, batch.pocket, batch.status, batch.facts)
-    return hashlib.sha256(b"".join(array.tobytes() for array in arrays)).hexdigest()
-
-
-def hash_of_results(results: list[Any]) -> str:
-    """SHA-256 over what each traced shot left: ends, durations and numbers of events."""
+def hash_of(outputs: Any) -> str:
+    """SHA-256 over all that a scene left: positions, pockets, statuses and facts, or every event of every trace."""
     total = hashlib.sha256()
-    for result in results:
-        total.update(result.final.positions.tobytes() + np.float64(result.duration).tobytes())
+    if not isinstance(outputs, list):
+        for array in (outputs.positions, outputs.pocket, outputs.status, outputs.facts):
+            total.update(array.tobytes())
+        return total.hexdigest()
+    for result in outputs:
+        total.update(result.final.positions.tobytes())
+        for event in result.events:
+            total.update(repr(event).encode())
     return total.hexdigest()
 
 

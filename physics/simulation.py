@@ -162,14 +162,13 @@ def _run(table: Table, states: Floats, stroke: Floats, trace: bool) -> Result:
     outputs = final, np.empty((1, N_BALLS), np.int8), facts
     entry, row, work = kernels(table.has_jaws).simulate_rows, parameters(table), workspace()
     rows = TRACE_ROWS if trace else 0
-    # zeros: kernels leave the columns of no second ball alone
-    events = np.zeros((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
+    events = np.empty((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
     entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
     n_events = int(facts[0, F_EVENTS])
     if trace and n_events > rows:
-        events = np.zeros((1, n_events * TRACE_WIDTH))
+        events = np.empty((1, n_events * TRACE_WIDTH))
         entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
-    kept = events.reshape(-1, TRACE_WIDTH)[:n_events] if trace else None
+    kept = events.reshape(-1, TRACE_WIDTH)[:n_events].copy() if trace else None  # and not the room that was not needed
     return Result(table, states, final, facts, kept, n_events)
 
 

@@ -29,7 +29,7 @@ def write_state(s, i, memory, place):
 
 @kernel
 def record(s, time, kind, ball, other):
-    """Count an event and, while the trace has room, write its row; its ordinal."""
+    """Count an event and, while the trace has room, write its row, 0 where there is no second ball; its ordinal."""
     event = load_integer(s.k, at.N_EVENTS)
     store_integer(s.k, at.N_EVENTS, event + 1)
     if ball == at.CUE_BALL:
@@ -43,6 +43,9 @@ def record(s, time, kind, ball, other):
         write_state(s, ball, s.trace, start + at.T_FIRST)
         if kind == at.BALL_COLLISION:
             write_state(s, other, s.trace, start + at.T_SECOND)
+        else:
+            for n in range(at.T_SECOND, at.TRACE_WIDTH):
+                store(s.trace, start + n, 0.0)
     return event
 
 

@@ -43,7 +43,7 @@ def test_sizes_are_those_of_the_layout() -> None:
     assert parameters(physics.Table.olympiad()).shape == (1, layout.P_SIZE)
     assert facts.FACTS_DTYPE.itemsize == 4 * layout.FACTS_WIDTH
     padding = layout.F_INTEGERS % 2  # the float64 begin at a multiple of 8 bytes
-    assert layout.FACTS_WIDTH == layout.F_INTEGERS + padding + 2 * (layout.F_CUE_Y + 1 - layout.F_DURATION)
+    assert layout.F_INTEGERS + padding + 2 * (layout.F_CUE_Y + 1 - layout.F_DURATION) == layout.FACTS_WIDTH
     assert parameters(physics.Table.nine_foot()).shape == (1, layout.P_REAL_SIZE)
 
 

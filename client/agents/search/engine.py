@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from client.agents.search import shots as at
 from physics import Table
+from physics.constants import N_POCKETS
 from physics.engine import cache_folder, digest_of
 from physics.engine import kernels as physics_kernels
 
@@ -36,8 +38,8 @@ def _call_once(module: Any) -> None:
     one, flag, number = np.zeros(1), np.zeros(1, bool), np.zeros(1, np.int64)
     module.survey(row, positions, 1e-3, flag, 0.0, np.empty((1, 2, 4)))
     floats, integers = [np.zeros((1, 1)) for _ in range(3)], [np.zeros((1, 1), np.int64) for _ in range(2)]
-    module.list_pots(row, positions, np.ones((1, 16), bool), 1e-3, *integers, *floats)
-    module.elevations(row, positions, number, one, one, one, 0.1, one.copy())
+    module.list_pots(row, positions, np.ones((1, 16), bool), 1e-3, (*integers, *floats))
+    module.elevations(row, positions, number, (one, one, one), 0.1, one.copy())
 
 
 @functools.cache
@@ -55,13 +57,17 @@ def _load() -> Any:
 
 @functools.lru_cache(maxsize=16)
 def table_row(table: Table) -> NDArray[np.float64]:
-    """A table as the geometry takes it: see the places named at the top of the kernels."""
-    row = [table.width, table.length, table.ball_radius, table.nose_height, table.cue_length]
-    for pocket, (x, y) in enumerate(table.mouths.tolist()):
+    """A table as the geometry takes it: see WIDTH and its fellows."""
+    row = np.empty(at.MOUTHS + at.PER_POCKET * N_POCKETS)
+    row[[at.WIDTH, at.LENGTH, at.RADIUS]] = table.width, table.length, table.ball_radius
+    row[[at.NOSE, at.CUE_LENGTH]] = table.nose_height, table.cue_length
+    mouths = row[at.MOUTHS :].reshape(N_POCKETS, at.PER_POCKET)
+    mouths[:, [at.MOUTH_X, at.MOUTH_Y]] = table.mouths
+    for mouth, pocket, (x, y) in zip(mouths, range(N_POCKETS), table.mouths.tolist(), strict=True):
         right, up = math.copysign(1.0, 0.5 * table.width - x), math.copysign(1.0, 0.5 * table.length - y)
         if pocket in SIDES:
-            row += [x, y, right, 0.0, 0.5 * table.side_mouth]
+            mouth[[at.INWARD_X, at.INWARD_Y, at.HALF_MOUTH]] = right, 0.0, 0.5 * table.side_mouth
         else:
-            half = (table.corner_reach - table.ball_radius) / math.sqrt(2.0)
-            row += [x, y, right / math.sqrt(2.0), up / math.sqrt(2.0), half]
-    return np.array(row)
+            mouth[[at.INWARD_X, at.INWARD_Y]] = right / math.sqrt(2.0), up / math.sqrt(2.0)
+            mouth[at.HALF_MOUTH] = (table.corner_reach - table.ball_radius) / math.sqrt(2.0)
+    return row

@@ -17,6 +17,12 @@ CHANCE, SEEN, LAYOUT, PLACED = range(4)
 straight; how hard its layout is, minus the sum of the logarithms of its balls' chances; chance with ball in hand."""
 
 
+WIDTH, LENGTH, RADIUS, NOSE, CUE_LENGTH, MOUTHS = range(6)
+"""Places in the row of a table (`engine.table_row`), m; from MOUTHS on, PER_POCKET numbers a pocket:"""
+MOUTH_X, MOUTH_Y, INWARD_X, INWARD_Y, HALF_MOUTH, PER_POCKET = range(6)
+"""middle of the mouth line, m; its inward normal; half its length, m."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Tables:
     """Positions to shoot from.

@@ -61,7 +61,7 @@ class Sight:
         if targets is None:
             targets = target_balls(tables.positions, tables.group)
         found = (pots.ball, pots.pocket, pots.phi, pots.margin, pots.chance)
-        self._kernels.list_pots(self._row, np.ascontiguousarray(tables.positions), targets, self.sigma, *found)
+        self._kernels.list_pots(self._row, np.ascontiguousarray(tables.positions), targets, self.sigma, found)
         return pots
 
     def raised(self, shots: Shots) -> Shots:
@@ -72,6 +72,6 @@ class Sight:
         columns = (phi.copy(), a.copy(), b - self._slack * SIGMA_B)
         positions = np.ascontiguousarray(shots.tables.positions)
         aside = self._slack * SIGMA_PHI
-        self._kernels.elevations(self._row, positions, shots.table, *columns, aside, theta)
+        self._kernels.elevations(self._row, positions, shots.table, columns, aside, theta)
         strokes[:, THETA] = theta + self._slack * SIGMA_THETA + ROOM
         return replace(shots, strokes=strokes)[strokes[:, THETA] <= self._theta_max]

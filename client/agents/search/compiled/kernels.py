@@ -9,15 +9,12 @@ Every array is C-contiguous float64 or int64; `positions` is (n, 16, 2) m with N
 """
 
 import math
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
 
-from client.agents.search.shots import CHANCE, LAYOUT, PLACED, SEEN
-
-WIDTH, LENGTH, RADIUS, NOSE, CUE_LENGTH, MOUTHS = 0, 1, 2, 3, 4, 5
-PER_POCKET = 5
-"""Places in a table's row; from MOUTHS on, five a pocket: x, y, inward normal x, y, half length of the mouth line."""
+from client.agents.search import shots as at
 
 STEEPEST = math.cos(math.radians(83.0))
 """Cosine of the thinnest cut worth a thought: beyond it a tenth of a degree misses the ball."""
@@ -29,113 +26,160 @@ BLOCKED = 0.8
 """Chance that a ball no pocket is open for will be made when its turn comes: others move by then, or it is banked."""
 
 compiled = numba.njit(error_model="numpy", nogil=True, cache=bool(numba.config.CACHE_DIR))
-inner = numba.njit(error_model="numpy", nogil=True)
+inner = numba.njit(error_model="numpy", nogil=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+
+
+class View(NamedTuple):
+    """One table: ``table``, its numbers (`engine.table_row`), and ``row`` (16, 2) m, where its balls lie."""
+
+    table: Any
+    row: Any
+
+
+class Way(NamedTuple):
+    """A ball's straight way from (x, y), m, along the unit (ux, uy) for `run`, m."""
+
+    x: float
+    y: float
+    ux: float
+    uy: float
+    run: float
+
+
+class Fan(NamedTuple):
+    """Bounds on an angle, rad, left positive; low = high: closed."""
+
+    low: float
+    high: float
+
+
+class Lane(NamedTuple):
+    """The way of an object ball into a pocket: unit (ux, uy), and by how much it may turn."""
+
+    ux: float
+    uy: float
+    fan: Fan
+
+
+class Cue(NamedTuple):
+    """A level cue along (ux, uy); seen from the cue ball's centre its tip is `depth` back and `tip` up, m."""
+
+    ux: float
+    uy: float
+    depth: float
+    tip: float
+    length: float
 
 
 @inner
-def normal_between(low, high, sigma):
-    """Chance that a normal error of standard deviation `sigma` lies in (low, high)."""
-    if low >= high:
+def normal_between(fan, sigma):
+    """Chance that a normal error of standard deviation `sigma` lies within the fan."""
+    if fan.low >= fan.high:
         return 0.0
     scale = 1.0 / (sigma * math.sqrt(2.0))
-    return 0.5 * (math.erf(high * scale) - math.erf(low * scale))
+    return 0.5 * (math.erf(fan.high * scale) - math.erf(fan.low * scale))
 
 
 @inner
-def narrowed(row, ball, skip, x, y, ux, uy, run, radius, low, high, gain):
-    """Bounds (low, high) on an angle (rad, left positive), narrowed by the balls beside a path.
+def narrowed(view, ball, skip, way, fan, gain):
+    """A fan narrowed by the balls beside a way; turning the way by e moves it at distance s by s gain e.
 
-    The path goes from (x, y) along the unit (ux, uy) for `run`; turning it by e moves it at distance s by s gain e.
     A negative `gain` turns the other way. `ball` and `skip` do not count.
     """
-    reach = 2.0 * radius
+    low, high = fan
+    reach = 2.0 * view.table[at.RADIUS]
     for other in range(16):
         if other in (ball, skip):
             continue
-        dx, dy = row[other, 0] - x, row[other, 1] - y
-        along = dx * ux + dy * uy
+        dx, dy = view.row[other, 0] - way.x, view.row[other, 1] - way.y
+        along = dx * way.ux + dy * way.uy
         if not (along > 0.0):  # behind, or absent (NaN)
             continue
-        aside = ux * dy - uy * dx  # positive: to the left
-        if along > run:
-            over = along - run
+        aside = way.ux * dy - way.uy * dx  # positive: to the left
+        if along > way.run:
+            over = along - way.run
             if over >= reach:
                 continue
             room = math.sqrt(reach * reach - over * over)
-            along = run
+            along = way.run
         else:
             room = reach
         gap = abs(aside) - room
         if gap <= 0.0:
-            return 0.0, 0.0
+            return Fan(0.0, 0.0)
         bound = gap / (along * abs(gain))
         if (aside > 0.0) == (gain > 0.0):
             high = min(high, bound)
         else:
             low = max(low, -bound)
-    return low, high
+    return Fan(low, high)
 
 
 @inner
-def to_pocket(table, row, ball, pocket, skip):
-    """Object ball to pocket: (ux, uy, run, low, high), direction and bounds on the angle; low = high if blocked."""
-    at = MOUTHS + PER_POCKET * pocket
-    x, y = row[ball, 0], row[ball, 1]
-    dx, dy = table[at] - x, table[at + 1] - y
+def to_pocket(view, ball, pocket):
+    """The lane of an object ball into a pocket; its fan is closed if it is blocked."""
+    table = view.table
+    place = at.MOUTHS + at.PER_POCKET * pocket
+    x, y = view.row[ball, 0], view.row[ball, 1]
+    dx, dy = table[place + at.MOUTH_X] - x, table[place + at.MOUTH_Y] - y
     run = math.sqrt(dx * dx + dy * dy)
     if run < 1e-9:
-        return 1.0, 0.0, 1e-9, -1.0, 1.0
+        return Lane(1.0, 0.0, Fan(-1.0, 1.0))
     ux, uy = dx / run, dy / run
-    facing = -(ux * table[at + 2] + uy * table[at + 3])
+    facing = -(ux * table[place + at.INWARD_X] + uy * table[place + at.INWARD_Y])
     if facing <= 0.05:
-        return ux, uy, run, 0.0, 0.0
-    bound = math.atan2(table[at + 4] * facing, run)
-    low, high = narrowed(row, ball, skip, x, y, ux, uy, run, table[RADIUS], -bound, bound, 1.0)
-    return ux, uy, run, low, high
+        return Lane(ux, uy, Fan(0.0, 0.0))
+    bound = math.atan2(table[place + at.HALF_MOUTH] * facing, run)
+    return Lane(ux, uy, narrowed(view, ball, 0, Way(x, y, ux, uy, run), Fan(-bound, bound), 1.0))
 
 
 @inner
-def straight(table, row, ball, ux, uy, low, high, sigma):
+def turned_by(fan, gain):
+    """The fan of the cue ball's direction whose errors, times -`gain`, turn the object ball within `fan`."""
+    return Fan(-fan.high / gain, -fan.low / gain)
+
+
+@inner
+def straight(view, ball, lane, sigma):
     """A pot from where the cue ball lies: (chance, phi, half the margin), rad; chance 0 when it cannot be played."""
-    radius = table[RADIUS]
-    gx, gy = row[ball, 0] - 2.0 * radius * ux, row[ball, 1] - 2.0 * radius * uy
+    row, radius = view.row, view.table[at.RADIUS]
+    gx, gy = row[ball, 0] - 2.0 * radius * lane.ux, row[ball, 1] - 2.0 * radius * lane.uy
     dx, dy = gx - row[0, 0], gy - row[0, 1]
     reach = math.sqrt(dx * dx + dy * dy)
     if reach < 1e-6:
-        return 0.99, math.atan2(uy, ux), 0.05
+        return 0.99, math.atan2(lane.uy, lane.ux), 0.05
     vx, vy = dx / reach, dy / reach
-    cut = vx * ux + vy * uy
+    cut = vx * lane.ux + vy * lane.uy
     if cut < STEEPEST:
         return 0.0, 0.0, 0.0
     gain = reach / (2.0 * radius * cut)
-    phi_low, phi_high = narrowed(
-        row, 0, ball, row[0, 0], row[0, 1], vx, vy, reach, radius, -high / gain, -low / gain, 1.0
-    )
-    chance = normal_between(phi_low, phi_high, sigma)
-    return chance, math.atan2(vy, vx), 0.5 * (phi_high - phi_low)
+    fan = narrowed(view, 0, ball, Way(row[0, 0], row[0, 1], vx, vy, reach), turned_by(lane.fan, gain), 1.0)
+    return normal_between(fan, sigma), math.atan2(vy, vx), 0.5 * (fan.high - fan.low)
 
 
 @inner
-def is_seen(table, row, ball):
+def is_seen(view, ball):
     """Whether the cue ball can strike `ball` straight, on either of its halves or full."""
+    row = view.row
     dx, dy = row[ball, 0] - row[0, 0], row[ball, 1] - row[0, 1]
     far = math.sqrt(dx * dx + dy * dy)
     ux, uy = dx / far, dy / far
-    side = 1.4 * table[RADIUS]
+    side = 1.4 * view.table[at.RADIUS]
     for offset in (0.0, side, -side):
         tx, ty = dx - offset * uy, dy + offset * ux
         run = math.sqrt(tx * tx + ty * ty)
-        low, high = narrowed(row, 0, ball, row[0, 0], row[0, 1], tx / run, ty / run, run, table[RADIUS], -1.0, 1.0, 1.0)
-        if low < high:
+        fan = narrowed(view, 0, ball, Way(row[0, 0], row[0, 1], tx / run, ty / run, run), Fan(-1.0, 1.0), 1.0)
+        if fan.low < fan.high:
             return True
     return False
 
 
 @inner
-def is_place(table, row, x, y, kitchen):
+def is_place(view, x, y, kitchen):
     """Whether the cue ball can be put there (mouths aside, where no pot starts), `kitchen` the least y."""
-    radius = table[RADIUS]
-    if x < radius or x > table[WIDTH] - radius or y < max(radius, kitchen) or y > table[LENGTH] - radius:
+    table, row = view
+    radius = table[at.RADIUS]
+    if x < radius or x > table[at.WIDTH] - radius or y < max(radius, kitchen) or y > table[at.LENGTH] - radius:
         return False
     for other in range(1, 16):
         dx, dy = row[other, 0] - x, row[other, 1] - y
@@ -145,47 +189,47 @@ def is_place(table, row, x, y, kitchen):
 
 
 @inner
-def placed(table, row, ball, ux, uy, low, high, sigma, kitchen):
+def placed(view, ball, lane, sigma, kitchen):
     """Chance of a pot with the cue ball in hand: from straight behind, or a little to either side."""
-    radius, best = table[RADIUS], 0.0
-    gx, gy = row[ball, 0] - 2.0 * radius * ux, row[ball, 1] - 2.0 * radius * uy
+    row, radius, best = view.row, view.table[at.RADIUS], 0.0
+    gx, gy = row[ball, 0] - 2.0 * radius * lane.ux, row[ball, 1] - 2.0 * radius * lane.uy
     for turn in (0.0, 0.5, -0.5):
         c, s = math.cos(turn), math.sin(turn)
-        vx, vy = c * ux - s * uy, s * ux + c * uy
+        vx, vy = c * lane.ux - s * lane.uy, s * lane.ux + c * lane.uy
         x, y = gx - PLACED_REACH * vx, gy - PLACED_REACH * vy
-        if not is_place(table, row, x, y, kitchen):
+        if not is_place(view, x, y, kitchen):
             continue
         gain = PLACED_REACH / (2.0 * radius * c)
-        a, b = narrowed(row, 0, ball, x, y, vx, vy, PLACED_REACH, radius, -high / gain, -low / gain, 1.0)
-        best = max(best, normal_between(a, b, sigma))
+        fan = narrowed(view, 0, ball, Way(x, y, vx, vy, PLACED_REACH), turned_by(lane.fan, gain), 1.0)
+        best = max(best, normal_between(fan, sigma))
     return best
 
 
 @inner
-def usual(table, low, high, sigma):
-    """Chance of a pot from where good position play leaves it; the object ball leaves between two angles (rad)."""
-    gain = USUAL_REACH / (2.0 * table[RADIUS] * USUAL_CUT)
-    return normal_between(low / gain, high / gain, sigma)
+def usual(table, fan, sigma):
+    """Chance of a pot from where good position play leaves it; the object ball may leave within `fan`."""
+    gain = USUAL_REACH / (2.0 * table[at.RADIUS] * USUAL_CUT)
+    return normal_between(Fan(fan.low / gain, fan.high / gain), sigma)
 
 
 @inner
-def survey_ball(table, row, ball, sigma, hand, kitchen, out):
+def survey_ball(view, ball, sigma, hand, kitchen, out):
     """Add one ball to what is known of its group: best pots, difficulty."""
     own, easy = 0.0, 0.0
     for pocket in range(6):
-        ux, uy, _, low, high = to_pocket(table, row, ball, pocket, 0)
-        if low >= high:
+        lane = to_pocket(view, ball, pocket)
+        if lane.fan.low >= lane.fan.high:
             continue
-        easy = max(easy, usual(table, low, high, sigma))
+        easy = max(easy, usual(view.table, lane.fan, sigma))
         if hand:
-            out[PLACED] = max(out[PLACED], placed(table, row, ball, ux, uy, low, high, sigma, kitchen))
+            out[at.PLACED] = max(out[at.PLACED], placed(view, ball, lane, sigma, kitchen))
         else:
-            chance, _, _ = straight(table, row, ball, ux, uy, low, high, sigma)
+            chance, _, _ = straight(view, ball, lane, sigma)
             own = max(own, chance)
-    out[CHANCE] = max(out[CHANCE], own)
-    out[LAYOUT] -= math.log(max(easy, BLOCKED))
-    if not hand and out[SEEN] == 0.0 and (own > 0.0 or is_seen(table, row, ball)):
-        out[SEEN] = 1.0
+    out[at.CHANCE] = max(out[at.CHANCE], own)
+    out[at.LAYOUT] -= math.log(max(easy, BLOCKED))
+    if not hand and out[at.SEEN] == 0.0 and (own > 0.0 or is_seen(view, ball)):
+        out[at.SEEN] = 1.0
 
 
 @compiled
@@ -199,46 +243,47 @@ def survey(table, positions, sigma, hand, kitchen, out):
     """
     out[:] = 0.0
     for n in range(positions.shape[0]):
-        row = positions[n]
+        view = View(table, positions[n])
+        row = view.row
         for group in range(2):
             mine = out[n, group]
             left = 0
             for ball in range(1 + 8 * group, 8 + 8 * group):
                 if row[ball, 0] == row[ball, 0]:
                     left += 1
-                    survey_ball(table, row, ball, sigma, hand[n], kitchen, mine)
+                    survey_ball(view, ball, sigma, hand[n], kitchen, mine)
             if row[8, 0] != row[8, 0]:
                 continue
             if left == 0:
-                survey_ball(table, row, 8, sigma, hand[n], kitchen, mine)
+                survey_ball(view, 8, sigma, hand[n], kitchen, mine)
             else:
                 easy = 0.0
                 for pocket in range(6):
-                    _, _, _, low, high = to_pocket(table, row, 8, pocket, 0)
-                    easy = max(easy, usual(table, low, high, sigma))
-                mine[LAYOUT] -= math.log(max(easy, BLOCKED))
+                    easy = max(easy, usual(table, to_pocket(view, 8, pocket).fan, sigma))
+                mine[at.LAYOUT] -= math.log(max(easy, BLOCKED))
 
 
 @compiled
-def list_pots(table, positions, targets, sigma, ball, pocket, phi, margin, chance):
+def list_pots(table, positions, targets, sigma, found):
     """The best straight pots of each table, at most m, the likeliest first; chance 0 where there are fewer.
 
     Args:
         targets: (n, 16) whether a ball may be called.
-        ball, pocket, phi (deg), margin (deg), chance: (n, m), filled.
+        found: (ball, pocket, phi in deg, margin in deg, chance), each (n, m), filled.
     """
+    ball, pocket, phi, margin, chance = found
     most = ball.shape[1]
     chance[:] = 0.0
     for n in range(positions.shape[0]):
-        row = positions[n]
+        view = View(table, positions[n])
         for one in range(1, 16):
-            if not targets[n, one] or row[one, 0] != row[one, 0]:
+            if not targets[n, one] or view.row[one, 0] != view.row[one, 0]:
                 continue
             for into in range(6):
-                ux, uy, _, low, high = to_pocket(table, row, one, into, 0)
-                if low >= high:
+                lane = to_pocket(view, one, into)
+                if lane.fan.low >= lane.fan.high:
                     continue
-                p, direction, half = straight(table, row, one, ux, uy, low, high, sigma)
+                p, direction, half = straight(view, one, lane, sigma)
                 if p <= chance[n, most - 1]:
                     continue
                 place = most - 1
@@ -255,53 +300,55 @@ def list_pots(table, positions, targets, sigma, ball, pocket, phi, margin, chanc
 
 
 @inner
-def over_ball(dx, dy, depth, low_tip, ux, uy, radius, length):
+def over_ball(dx, dy, cue, radius):
     """Elevation (rad) at which the cue passes over a ball at (dx, dy); 0 if it need not, 2 if it cannot."""
-    along = -(dx * ux + dy * uy) - depth  # behind the tip
-    aside = ux * dy - uy * dx
-    if along <= -radius or along > length + radius or abs(aside) >= radius:
+    along = -(dx * cue.ux + dy * cue.uy) - cue.depth  # behind the tip
+    aside = cue.ux * dy - cue.uy * dx
+    if along <= -radius or along > cue.length + radius or abs(aside) >= radius:
         return 0.0
     rise = math.sqrt(radius * radius - aside * aside)
-    far = math.sqrt(along * along + low_tip * low_tip)
+    far = math.sqrt(along * along + cue.tip * cue.tip)
     if rise >= far:
         return 2.0
-    return max(0.0, math.asin(rise / far) - math.atan2(low_tip, along))
+    return max(0.0, math.asin(rise / far) - math.atan2(cue.tip, along))
 
 
 @inner
-def over_cushion(start, step, line, height, nose, length):
-    """Elevation (rad) at which the cue clears a cushion's nose at `line`; 0 when it does not come so far."""
+def over_cushion(start, step, line, rise, length):
+    """Elevation (rad) at which the cue clears a nose `rise` above its tip at `line`; 0 when it does not come so far."""
     if abs(step) < 1e-12:
         return 0.0
     far = (line - start) / step
     if far <= 0.0 or far > length:
         return 0.0
-    return math.atan2(nose - height, far) if nose > height else 0.0
+    return math.atan2(rise, far) if rise > 0.0 else 0.0
 
 
 @compiled
-def elevations(table, positions, which, phi, a, b, aside, out):
+def elevations(table, positions, which, strokes, aside, out):
     """Least elevation (deg) at which the cue stays free, also `aside` (deg) to either side; NaN if there is none.
 
     Args:
-        which: (n,) row of `positions`. phi: (n,) deg. a, b: (n,) mm.
+        which: (n,) row of `positions`. strokes: (phi in deg, a in mm, b in mm), each (n,).
     """
-    radius = table[RADIUS]
+    phi, a, b = strokes
+    radius = table[at.RADIUS]
     for n in range(which.shape[0]):
         row = positions[which[n]]
         side, tip = 1e-3 * a[n], 1e-3 * b[n]
         depth = math.sqrt(max(0.0, radius * radius - side * side - tip * tip))
+        rise = table[at.NOSE] - (radius + tip)
         least = 0.0
         for turn in (0.0, -aside, aside):
             angle = math.radians(phi[n] + turn)
-            ux, uy = math.cos(angle), math.sin(angle)
+            cue = Cue(math.cos(angle), math.sin(angle), depth, tip, table[at.CUE_LENGTH])
             for other in range(1, 16):
                 if row[other, 0] == row[other, 0]:
-                    dx, dy = row[other, 0] - row[0, 0] - side * uy, row[other, 1] - row[0, 1] + side * ux
-                    least = max(least, over_ball(dx, dy, depth, tip, ux, uy, radius, table[CUE_LENGTH]))
-            x, y = row[0, 0] - depth * ux + side * uy, row[0, 1] - depth * uy - side * ux
-            for start, step, wall in ((x, -ux, table[WIDTH]), (y, -uy, table[LENGTH])):
+                    dx = row[other, 0] - row[0, 0] - side * cue.uy
+                    dy = row[other, 1] - row[0, 1] + side * cue.ux
+                    least = max(least, over_ball(dx, dy, cue, radius))
+            x, y = row[0, 0] - depth * cue.ux + side * cue.uy, row[0, 1] - depth * cue.uy - side * cue.ux
+            for start, step, wall in ((x, -cue.ux, table[at.WIDTH]), (y, -cue.uy, table[at.LENGTH])):
                 for line in (0.0, wall):
-                    need = over_cushion(start, step, line, radius + tip, table[NOSE], table[CUE_LENGTH])
-                    least = max(least, need)
+                    least = max(least, over_cushion(start, step, line, rise, cue.length))
         out[n] = math.degrees(least) if least < 1.5 else np.nan
