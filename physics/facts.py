@@ -45,8 +45,8 @@ class Facts:
         crossed_before_contact: the same, but before the first contact.
         first_contact: (16,) the collision in which the cue ball struck this ball first; several when
             simultaneous.
-        cushion: (16,) first rail collision of each ball. Touches slower than 1 mm/s, and touches at the start by
-            a ball frozen to that cushion, do not count.
+        cushion: (16,) first collision of each ball with a cushion; a jaw counts as its cushion. Touches slower than
+            1 mm/s, and touches at the start by a ball frozen to that cushion, do not count.
         cushion_after_contact: (16,) the same, counting only what follows the first contact.
         pocketed: (16,) the pocket collision; pocket: (16,) which pocket, or -1.
         off_table: (16,) the event by which the ball left the table.

@@ -94,7 +94,7 @@ def end_motion(s, alive, i, time):
     return 0
 
 
-@kernel
+@small_kernel
 def run(s, alive, changed):
     """Go from event to event, after the balls in ``changed`` were set in motion at time 0: (why it ended, duration)."""
     now = 0.0
@@ -141,24 +141,16 @@ def finish(s, status, duration):
     store_fact_number(s.facts, at.F_DURATION, duration)
 
 
-@small_kernel
-def run_and_finish(s, alive, changed):
-    """Go from event to event and note how it ended."""
-    ended, duration = run(s, alive, changed)
-    store_integer(s.k, at.ENDED, ended)
-    finish(s, at.AT_REST if ended == at.NOTHING_TO_COME else at.EVENT_LIMIT, duration)
-
-
 @kernel
-def play(s, positions, shot):
-    """Simulate one shot from rest, after ``reset``. ``shot``: v phi theta a b in Olympiad units."""
-    alive = place(s, positions)
-    note_frozen(s, alive)
+def strike_off(s, shot):
+    """The cue's strike and the contacts it makes: (status, balls set in motion or UNSETTLED).
+
+    ``shot``: v phi theta a b in Olympiad units.
+    """
     stroke = read_stroke(shot)
     status = playable(s, stroke)
     if status != at.AT_REST:
-        finish(s, status, 0.0)
-        return
+        return status, 0
     vx, vy, wx, wy, wz = strike(s, stroke)
     store(s.w, at.VX + at.CUE_BALL, vx)
     store(s.w, at.VY + at.CUE_BALL, vy)
@@ -168,19 +160,28 @@ def play(s, positions, shot):
     restate(s, plain(1 << at.CUE_BALL))
     record(s, 0.0, plain(at.CUE_STRIKE), plain(at.CUE_BALL), plain(at.NOBODY))
     note_start(s)
-    changed = settle(s, plain(at.CUE_BALL), plain(at.NOBODY), 0.0)
-    if changed == UNSETTLED:
-        store_integer(s.k, at.ENDED, at.OUT_OF_ROUNDS)
-        finish(s, plain(at.EVENT_LIMIT), 0.0)
-        return
-    run_and_finish(s, alive, changed)
+    return status, settle(s, plain(at.CUE_BALL), plain(at.NOBODY), 0.0)
 
 
-@kernel
-def go_on(s, states):
-    """Simulate on from balls in motion, after ``reset``. ``states``: see ``restore``."""
-    alive = restore(s, states)
+@small_kernel
+def play(s, moving, balls, shot):
+    """Simulate one shot, after ``reset``.
+
+    ``moving`` (0 or 1): ``balls`` are 16 states that go on (see ``restore``), else places at rest (see ``place``) that
+    ``shot`` is played on. The loop stands here once for both, inlined: a second copy would take as long to compile.
+    """
+    alive = restore(s, balls) if moving != 0 else place(s, balls)
     note_frozen(s, alive)
-    if alive & 1:
+    status, changed = at.AT_REST, alive
+    if moving == 0:
+        status, changed = strike_off(s, shot)
+    elif alive >> at.CUE_BALL & 1:
         note_start(s)
-    run_and_finish(s, alive, alive)
+    duration = 0.0
+    if status == at.AT_REST:
+        ended = at.OUT_OF_ROUNDS
+        if changed != UNSETTLED:
+            ended, duration = run(s, alive, changed)
+        store_integer(s.k, at.ENDED, ended)
+        status = at.AT_REST if ended == at.NOTHING_TO_COME else at.EVENT_LIMIT
+    finish(s, status, duration)

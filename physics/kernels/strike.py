@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store_fact
+from physics.kernels.detect.mouths import beside_long_nose, beside_short_nose
 from physics.kernels.motion import on_table
 from physics.kernels.squirt import struck
 from physics.kernels.trigonometry import sine_cosine
@@ -179,24 +180,33 @@ def nose_under(s, cue):
 
 
 @small_kernel
-def rail_under(s, cue):
-    """The same on a table with jaws, where the tip may be beyond a nose line, in a mouth.
+def depth_of_mouth(s, mouth):
+    """How far a kind of mouth reaches beyond its nose line: to the far edge of the hole, m."""
+    return load(s.p, mouth + at.HOLE_RADIUS) - load(s.p, mouth + at.HOLE_U)
 
-    There the cue lies over the hole, as deep as that is; farther out it is over the rail.
+
+@small_kernel
+def rail_under(s, cue):
+    """The same on a table with jaws, where the tip may be beyond a nose line.
+
+    Beside a nose it is then over the cushion, which must lie lower; in a mouth it is over the hole, and the cue must be
+    above the rail where the hole ends.
     """
-    half_x, half_y, nose = load(s.p, at.P_HALF_X), load(s.p, at.P_HALF_Y), load(s.p, at.P_NOSE)
     found = nose_under(s, cue)
     if found != at.NOBODY:
         return found
+    half_x, half_y, nose = load(s.p, at.P_HALF_X), load(s.p, at.P_HALF_Y), load(s.p, at.P_NOSE)
+    east, north = 1.0 if cue.x > 0.0 else -1.0, 1.0 if cue.y > 0.0 else -1.0
     if abs(cue.x) > half_x:
         corner = half_y - abs(cue.y) < load(s.p, at.P_CORNER_JAW)
-        mouth = at.P_CORNER_JAW if corner else at.P_SIDE_JAW
-        line = half_x - load(s.p, mouth + at.HOLE_U) + load(s.p, mouth + at.HOLE_RADIUS)
-        if below_nose(cue.x, cue.ux, line if cue.x > 0.0 else -line, cue, nose):
+        line = half_x + depth_of_mouth(s, at.P_CORNER_JAW if corner else at.P_SIDE_JAW)
+        over_cushion = beside_long_nose(s, cue.y) and cue.height <= nose
+        if over_cushion or below_nose(cue.x, cue.ux, east * line, cue, nose):
             return at.BEHIND_CUSHION + (at.EAST if cue.x > 0.0 else at.WEST)
     if abs(cue.y) > half_y:
-        line = half_y - load(s.p, at.P_CORNER_JAW + at.HOLE_V) + load(s.p, at.P_CORNER_JAW + at.HOLE_RADIUS)
-        if below_nose(cue.y, cue.uy, line if cue.y > 0.0 else -line, cue, nose):
+        line = half_y + depth_of_mouth(s, at.P_CORNER_JAW)
+        over_cushion = beside_short_nose(s, cue.x) and cue.height <= nose
+        if over_cushion or below_nose(cue.y, cue.uy, north * line, cue, nose):
             return at.BEHIND_CUSHION + (at.NORTH if cue.y > 0.0 else at.SOUTH)
     return at.NOBODY
 

@@ -9,7 +9,7 @@ from physics.kernels.advance import advance
 from physics.kernels.compiling import kernel, load, load_integer, row, small_kernel, store
 from physics.kernels.detect.line import may_lie_inside
 from physics.kernels.detect.mouths import may_stand
-from physics.kernels.loop import go_on, play
+from physics.kernels.loop import play
 from physics.kernels.motion import on_table
 from physics.kernels.recording import write_state
 from physics.kernels.resolve.cloth import begin
@@ -63,13 +63,10 @@ def collect(s, start, stride, final):
 @kernel
 def simulate_row(s, n, states, shots, final, pockets, facts, rows, counters):
     """Simulate shot ``n`` of ``entries.simulate_rows``; ``rows``: events the trace has room for."""
-    moving = states.shape[1] != 2 * at.LANES
+    moving = int(states.shape[1] != 2 * at.LANES)
     given = row(states, n if states.shape[0] > 1 else 0)
     reset(s, rows)
-    if moving:
-        go_on(s, given)
-    else:
-        play(s, given, row(shots, n))
+    play(s, moving, given, row(shots, n if moving == 0 else 0))
     collect(s, given, at.STATE_WIDTH if moving else 2, row(final, n))
     for i in range(at.LANES):
         absent = load_integer(s.k, at.MOTION + i) == at.ABSENT

@@ -42,7 +42,9 @@ def test_sizes_are_those_of_the_layout() -> None:
     assert engine.workspace().shape == (1, layout.W_SIZE + layout.K_SIZE)
     assert parameters(physics.Table.olympiad()).shape == (1, layout.P_SIZE)
     assert facts.FACTS_DTYPE.itemsize == 4 * layout.FACTS_WIDTH
-    assert layout.FACTS_WIDTH == layout.F_INTEGERS + 2 * (layout.F_CUE_Y + 1 - layout.F_DURATION)
+    padding = layout.F_INTEGERS % 2  # the float64 begin at a multiple of 8 bytes
+    assert layout.F_INTEGERS + padding + 2 * (layout.F_CUE_Y + 1 - layout.F_DURATION) == layout.FACTS_WIDTH
+    assert parameters(physics.Table.nine_foot()).shape == (1, layout.P_REAL_SIZE)
 
 
 def test_no_two_quantities_share_a_place() -> None:
@@ -72,6 +74,7 @@ def test_facts_lie_where_kernels_write_them() -> None:
         "off_table": layout.F_OFF_TABLE,
         "frozen_to_cushion": layout.F_FROZEN_CUSHION,
         "frozen_to_cue_ball": layout.F_FROZEN_CUE,
+        "miscue": layout.F_MISCUE,
         "duration": 2 * layout.F_DURATION,
         "first_contact_cue_ball": 2 * layout.F_CUE_X,
     }

@@ -57,10 +57,9 @@ def meet_lines(s, path, best):
             gap = max(load(s.p, at.P_LINE_X) - sign * path.x, 0.0)
             t = crossing(gap, sign * path.vx, sign * path.hx)
             if t < best.time:
-                if in_side_mouth(s, path, t):
-                    best = Coming(t, at.MEET_POCKET, at.POCKET_E if line == at.EAST else at.POCKET_W)
-                else:
-                    best = Coming(t, at.MEET_CUSHION, line)
+                mouth = in_side_mouth(s, path, t)
+                pocket = at.POCKET_E if line == at.EAST else at.POCKET_W
+                best = Coming(t, at.MEET_POCKET if mouth else at.MEET_CUSHION, pocket if mouth else line)
         else:
             gap = max(load(s.p, at.P_LINE_Y) - sign * path.y, 0.0)
             t = crossing(gap, sign * path.vy, sign * path.hy)

@@ -7,7 +7,7 @@ Alciatore, TP A-14, after Marlow's data (docs/physics.md, eq. 36)::
 
 import math
 
-from physics.kernels.compiling import kernel, small_kernel
+from physics.kernels.compiling import small_kernel
 
 FRICTION_AT_SPEED, FRICTION_MORE, FRICTION_FALLS = 9.951e-3, 0.108, 1.088
 """Friction of a fast slip; what a slow one has more; how fast that fades, s/m."""
@@ -16,42 +16,25 @@ PER_LOG_TWO = 1.4426950408889634
 LOG_TWO_HIGH, LOG_TWO_LOW = 0.6931471803691238, 1.9082149292705877e-10
 """ln 2 to 33 bits, so that a multiple of it is exact, and the rest."""
 
-COEFFICIENTS = (
-    1.6059043836821613e-10,
-    2.08767569878681e-09,
-    2.505210838544172e-08,
-    2.755731922398589e-07,
-    2.7557319223985893e-06,
-    2.48015873015873e-05,
-    0.0001984126984126984,
-    0.001388888888888889,
-    0.008333333333333333,
-    0.041666666666666664,
-    0.16666666666666666,
-    0.5,
-    1.0,
-    1.0,
-)
-"""1/i! for i = 13..0."""
-
-POWERS = tuple(1.0 / (1 << k) for k in range(64))
-"""2^-k."""
-
-FADED = 44.0
-"""From here on exp(-x) < 2^-63 adds nothing to the friction."""
+FADED = 43.0
+"""From here on exp(-x), below 2^-62, adds nothing to the friction."""
 
 
-@kernel
+@small_kernel
 def fading(x):
-    """exp(-x) for x >= 0 by a fixed sequence of + - * /, within 2 ulp; 0 from FADED on."""
+    """exp(-x) for x >= 0 by a fixed sequence of + - * /, within 2 ulp; 0 from FADED on.
+
+    x = k ln 2 + r; exp(-r) is the sum of (-r)^i / i! up to i = 13, and 2^-k is exact.
+    """
     if not x < FADED:
         return 0.0
     k = math.floor(x * PER_LOG_TWO + 0.5)
     r = (x - k * LOG_TWO_HIGH) - k * LOG_TWO_LOW
-    total = 0.0
-    for coefficient in COEFFICIENTS:
-        total = coefficient - r * total
-    return total * POWERS[int(k)]
+    high = 2.505210838544172e-08 - r * (2.08767569878681e-09 - r * 1.6059043836821613e-10)
+    middle = 2.48015873015873e-05 - r * (2.7557319223985893e-06 - r * (2.755731922398589e-07 - r * high))
+    low = 0.008333333333333333 - r * (0.001388888888888889 - r * (0.0001984126984126984 - r * middle))
+    total = 1.0 - r * (1.0 - r * (0.5 - r * (0.16666666666666666 - r * (0.041666666666666664 - r * low))))
+    return total / float(1 << int(k))
 
 
 @small_kernel

@@ -1,0 +1,272 @@
+"""Shots on tables with jaws: against the arbitrary-precision engine, hostile scenes, symmetry, facts, the cue."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from support.compare import from_truth, partners
+from support.moving import Launch, after, first, let_go, rolling
+from support.truth.engine import play
+from support.truth.strike import Stroke
+from support.worlds import from_kernel, shot_of, world_of
+
+import physics
+from physics.status import Status
+
+NINE = physics.Table.nine_foot().replace(cue_test=False)
+R, RHO = 0.028575, NINE.contact_distance
+Position = tuple[float, float]
+LAWS = [("han", "alciatore"), ("mathavan", "alciatore"), ("factors", "consistent")]
+
+
+def clear(places: list[Position], x: float, y: float) -> bool:
+    return all(math.dist((x, y), place) >= 2 * R + 1e-4 for place in places)
+
+
+def near_a_mouth(rng: np.random.Generator, n: int) -> dict[int, Position]:
+    """Balls in and before the south-west or the west mouth."""
+    places: list[Position] = []
+    while len(places) < n:
+        x, y = rng.uniform(0.0, 0.18), rng.uniform(0.0, 0.18)
+        if rng.random() < 0.4:
+            x, y = rng.uniform(-0.005, 0.15), NINE.length / 2 + rng.uniform(-0.12, 0.12)
+        if NINE.contains(float(x), float(y)) and clear(places, x, y):
+            places.append((float(x), float(y)))
+    return dict(enumerate(places))
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: law[0])
+def test_shots_in_the_jaws_tell_the_true_story(law):
+    """Up to 14 events at 30 digits, without filter or broad phase: the same events, times to 1e-9 s."""
+    rng, jaws, compared = np.random.default_rng(17), 0, 0
+    table = NINE.replace(cushion=law[0], ball=law[1])
+    for _ in range(14):
+        positions = near_a_mouth(rng, int(rng.integers(1, 4)))
+        out = math.degrees(
+            math.atan2((-0.03, NINE.length / 2)[positions[0][1] > 1] - positions[0][1], -0.03 - positions[0][0])
+        )
+        stroke = Stroke(
+            float(rng.uniform(0.3, 7)), out + float(rng.normal(0, 40)), float(rng.uniform(0, 20)), 2.0, -3.0
+        )
+        truth = from_truth(play(positions, stroke, world_of(table), digits=30, max_events=14).records)
+        state = physics.TableState.from_positions(positions)
+        found = partners(truth, from_kernel(physics.simulate(table, state, shot_of(stroke))))
+        assert len(found) == len(truth), (positions, stroke)
+        assert max(abs(float(a.time - b.time)) for a, b in zip(truth, found, strict=True)) < 1e-9, (positions, stroke)
+        jaws += sum(event.kind == "jaw_collision" for event in truth)
+        compared += len(found)
+    assert jaws >= 8
+    assert compared > 80
+
+
+def touching_a_piece(rng: np.random.Generator) -> Position:
+    """A centre at a facing, a horn, a drop edge, a nose's end, or anywhere in a mouth: at it, or within TOUCH of it."""
+    corner = rng.random() < 0.6
+    mouth = NINE.corner_shape if corner else NINE.side_shape
+    off, angle = float(rng.choice([0.0, 1e-13, -1e-13, 1e-12, 1e-10])), float(rng.uniform(0, 2 * math.pi))
+    kind = int(rng.integers(5))
+    if kind == 0:
+        foot, (ns, nd) = float(rng.uniform(0, mouth.facing_length)), mouth.facing_normal
+        s = mouth.facing_start[0] - foot * nd + (RHO + off) * ns
+        d = mouth.facing_start[1] + foot * ns + (RHO + off) * nd
+    elif kind == 1:
+        reach = mouth.horn_radius + RHO + off
+        s, d = mouth.nose_end + reach * math.cos(angle), -mouth.horn_radius + reach * math.sin(angle)
+    elif kind == 2:
+        reach = mouth.hole_radius + float(rng.choice([1e-16, 1e-13, 1e-12, 1e-9]))
+        d, s = mouth.hole_centre[0] + reach * math.cos(angle), mouth.hole_centre[1] + reach * math.sin(angle)
+    elif kind == 3:
+        s, d = (float(x) for x in rng.uniform(-0.03, 0.12, 2))
+    else:
+        s, d = mouth.nose_end + float(rng.choice([0.0, 1e-15, -1e-15, 1e-6])), RHO
+    if not corner:
+        return d, NINE.length / 2 + s * float(rng.choice([-1.0, 1.0]))
+    u, v = (s, d) if rng.random() < 0.5 else (d, s)
+    return u if rng.random() < 0.5 else NINE.width - u, v if rng.random() < 0.5 else NINE.length - v
+
+
+def hostile(rng: np.random.Generator, n: int) -> Iterator[tuple[list[Position], list[float]]]:
+    """Balls at pieces of mouths, neighbours touching them; strokes from creeping to full, along and across."""
+    for _ in range(n):
+        places: list[Position] = []
+        for _ in range(60):
+            x, y = touching_a_piece(rng)
+            if places and rng.random() < 0.3:
+                angle, reach = rng.uniform(0, 2 * math.pi), 2 * R * (1 + float(rng.choice([0.0, 1e-16, 1e-13, 1e-9])))
+                other = places[int(rng.integers(len(places)))]
+                x, y = other[0] + reach * math.cos(angle), other[1] + reach * math.sin(angle)
+            apart = all(math.dist((x, y), place) >= 2 * R - 5e-16 for place in places)
+            if NINE.contains(float(x), float(y)) and apart and len(places) < 6:
+                places.append((float(x), float(y)))
+        places = places or [(0.6, 1.2)]
+        to_x, to_y = NINE.mouths[int(rng.integers(6))].tolist()
+        aim = math.degrees(math.atan2(to_y - places[0][1], to_x - places[0][0])) + float(rng.normal(0, 20))
+        speed, theta = float(rng.choice([1e-6, 0.01, 0.5, 5.0, 12.0])), float(rng.choice([0.0, 5.0, 30.0, 85.0]))
+        yield places, [speed, aim, theta, *(float(x) for x in rng.uniform(-18.0, 18.0, 2))]
+
+
+@pytest.mark.parametrize("law", ["han", "mathavan"])
+def test_hostile_shots_leave_legal_tables(law):
+    """None endless, none in the wood, no NaN, no overlap above 1e-12 m; each final is a legal start."""
+    scenes = list(hostile(np.random.default_rng(3), 2_000 if law == "han" else 500))
+    positions, shots = np.full((len(scenes), 16, 2), np.nan), np.array([shot for _, shot in scenes])
+    for row, (places, _) in zip(positions, scenes, strict=True):
+        row[: len(places)] = places
+    table = NINE.replace(cushion=law)
+    batch = physics.simulate_batch(table, positions, shots)
+    assert set(batch.status.tolist()) == {Status.AT_REST}
+    here = batch.pocket == -1
+    assert np.array_equal(np.isnan(batch.positions[:, :, 0]), ~here)
+    assert table.contains(*np.moveaxis(batch.positions[here], -1, 0)).all()
+    gaps = batch.positions[:, :, None] - batch.positions[:, None]
+    distances = np.sqrt((gaps**2).sum(axis=-1))[:, ~np.eye(16, dtype=bool)]
+    assert np.nanmin(distances) >= 2 * R - 1e-12
+    again = physics.simulate_batch(table, batch.positions, shots)  # every end is a legal start
+    assert set(again.status.tolist()) <= {Status.AT_REST, Status.NO_CUE_BALL}
+    assert (batch.pocket >= 0).sum() > 50
+
+
+def test_mirror_images_and_half_turns_have_the_same_bits():
+    """Inputs on a grid on which the table's middle is exact; velocities and times bit for bit."""
+    rng, grid = np.random.default_rng(8), 2.0**-40
+    half = np.array([0.625, 1.25])  # exact in binary; the table's own halves are 0.635 and 1.27
+    compared = 0
+    for _ in range(40):
+        offsets = np.round(rng.uniform(-1, 1, (3, 2)) * half / grid) * grid
+        phi = round(float(rng.uniform(0, 360)) * 2**20) / 2**20
+        told = []
+        for sx, sy, turned in ((1, 1, phi), (-1, 1, 180.0 - phi), (1, -1, -phi), (-1, -1, 180.0 + phi)):
+            places = np.array([0.5 * NINE.width, 0.5 * NINE.length]) + offsets * (sx, sy)
+            centred = places - (0.5 * NINE.width, 0.5 * NINE.length)
+            fits = all(NINE.contains(*place) for place in places.tolist()) and np.array_equal(
+                centred, offsets * (sx, sy)
+            )
+            if not fits or min(math.dist(a, b) for a, b in zip(places, np.roll(places, 1, 0), strict=True)) < 0.06:
+                break
+            state = physics.TableState.from_positions(dict(enumerate(map(tuple, places.tolist()))))
+            result = physics.simulate(NINE, state, physics.Shot(6.0, turned, 0.0, 3.0 * sx * sy, -2.0))
+            told.append([(e.time, e.kind, e.ball, *moved(e, sx, sy)) for e in result.events])
+        if len(told) == 4:
+            assert told[0] == told[1] == told[2] == told[3]
+            compared += 1
+    assert compared > 5
+
+
+def moved(event: physics.Event, sx: int, sy: int) -> list[tuple[float, ...]]:
+    return [
+        (sx * s.velocity[0], sy * s.velocity[1], sy * s.spin[0], sx * s.spin[1], sx * sy * s.spin[2])
+        for s in event.states
+    ]
+
+
+def test_a_jaw_counts_as_a_cushion_for_the_rules():
+    """A ball that meets nothing but a jaw is driven to a cushion."""
+    result = let_go(NINE, {0: rolling((0.9, 0.06), (-3.0, -0.12))})
+    jaw = first(result, "jaw_collision")
+    assert jaw.other in range(12)
+    assert result.facts.cushion[0] == min(
+        e.index for e in result.events if e.kind in ("jaw_collision", "rail_collision")
+    )
+
+
+@pytest.mark.parametrize("side", [True, False], ids=["side", "corner"])
+def test_a_ball_frozen_to_a_jaw_is_frozen_to_its_cushion(side):
+    """At rest against a facing: it is noted, and rolling along it is no collision."""
+    shape = NINE.side_shape if side else NINE.corner_shape
+    (ns, nd), foot = shape.facing_normal, 0.01
+    s = shape.facing_start[0] - foot * nd + RHO * ns
+    d = shape.facing_start[1] + foot * ns + RHO * nd
+    place = (d, NINE.length / 2 + s) if side else (s, d)
+    state = physics.TableState.from_positions({0: (0.6, 1.0), 1: place})
+    assert physics.simulate(NINE, state, physics.Shot(0.01, 0.0)).facts.frozen_to_cushion[1] == 1
+
+
+def test_a_soft_ball_is_held_by_a_facing_and_rolls_along_it():
+    shape = NINE.corner_shape
+    (ns, nd), foot = shape.facing_normal, 0.005
+    s = shape.facing_start[0] - foot * nd + RHO * ns
+    d = shape.facing_start[1] + foot * ns + RHO * nd
+    into = (-nd, ns)
+    velocity = tuple(0.05 * a - 5e-4 * b for a, b in zip(into, (ns, nd), strict=True))
+    result = let_go(NINE, {1: rolling((s, d), velocity)})
+    assert "jaw_collision" not in [event.kind.value for event in result.events]
+    end = result.final.position(1)
+    assert end is not None
+    gap = (end[0] - shape.facing_start[0]) * ns + (end[1] - shape.facing_start[1]) * nd - RHO
+    assert abs(gap) < 1e-9
+
+
+@pytest.mark.parametrize(("short", "drops"), [(1e-12, False), (-1e-12, True)])
+def test_the_drop_edge_decides_within_a_picometre(short, drops):
+    """Rolled straight at the side pocket to stop that far before the edge."""
+    edge = -NINE.side_shelf  # x of the drop edge in the middle of the west mouth
+    distance = 0.2
+    speed = math.sqrt(2.0 * NINE.mu_roll * NINE.gravity * (distance - short))
+    result = let_go(NINE, {1: rolling((edge + distance, NINE.length / 2), (-speed, 0.0))})
+    assert (result.final.position(1) is None) is drops
+
+
+def test_a_break_on_every_size():
+    for table in (physics.Table.nine_foot(), physics.Table.eight_foot(), physics.Table.seven_foot()):
+        state = physics.rack(table, "eight_ball", seed=4)
+        theta = physics.min_elevation(table, state, 270.0)
+        result = physics.simulate(table, state, physics.Shot(9.0, 270.0, theta))
+        assert result.status is Status.AT_REST
+        assert result.n_events > 60
+        batch = physics.simulate_batch(table, state, [[9.0, 270.0, theta, 0.0, 0.0]])
+        assert batch.state(0) == result.final
+
+
+def test_a_miscue_is_a_fact_and_no_foul_of_its_own():
+    state = physics.TableState.from_positions({0: (0.6, 1.0)})
+    held, slipped = (physics.simulate(NINE, state, physics.Shot(2.0, 0.0, a=share * 1e3 * R)) for share in (0.53, 0.56))
+    assert (held.facts.miscue, slipped.facts.miscue) == (0, 1)
+    assert slipped.status is Status.AT_REST
+    stiff = physics.simulate(NINE.replace(cue_end_mass=0.0), state, physics.Shot(2.0, 0.0, a=0.9e3 * R))
+    assert stiff.facts.miscue == 0
+
+
+def test_the_strike_squirts():
+    state = physics.TableState.from_positions({0: (0.6, 1.0)})
+    event = first(physics.simulate(NINE, state, physics.Shot(2.0, 0.0, a=0.5e3 * R)), "cue_strike")
+    vx, vy = after(event, 0).velocity
+    assert math.degrees(math.atan2(vy, vx)) == pytest.approx(1.89, abs=0.01)
+
+
+def test_the_cue_goes_over_nose_and_rail():
+    """Frozen to a long cushion it needs elevation; in a side mouth the cue must clear the rail behind the hole."""
+    table = physics.Table.nine_foot()
+    free = physics.min_elevation(table, physics.TableState.from_positions({0: (0.6, 1.9)}), 90.0)
+    frozen = physics.TableState.from_positions({0: (RHO, 0.6)})
+    in_mouth = physics.min_elevation(table, physics.TableState.from_positions({0: (-0.004, 1.27)}), 0.0)
+    assert free == 0.0
+    # Below the nose's height, 7.715 mm above the centre, the tip would be in the rubber.
+    assert math.isnan(physics.min_elevation(table, frozen, 0.0, b=7.7))
+    assert physics.min_elevation(table, frozen, 0.0, b=7.8) < 60.0
+    assert 0.0 < physics.min_elevation(table, physics.TableState.from_positions({0: (0.2, 0.6)}), 0.0) < 3.0
+    # (h - R) over the way from the tip to the far edge of the hole
+    way = NINE.side_shelf + 2 * NINE.side_hole_radius - 0.004 - R
+    assert in_mouth == pytest.approx(math.degrees(math.atan((NINE.nose_height - R) / way)), abs=1e-9)
+    shallow = physics.check(table, physics.TableState.from_positions({0: (-0.004, 1.27)}), physics.Shot(1.0, 0.0, 0.0))
+    assert shallow is not None
+    assert "W cushion" in str(shallow)
+
+
+def test_throw_and_banks_as_simulated():
+    """The laws are at work: a half-ball stun hit throws more slow than fast; english turns a bank."""
+    throws = []
+    for speed in (0.5, 3.0):
+        lean = math.radians(30.0)
+        places = (0.6, 0.6), (0.6 + 2 * R * math.cos(lean) + 1e-4, 0.6 + 2 * R * math.sin(lean))
+        hit = first(let_go(NINE, {0: Launch(places[0], (speed, 0.0)), 1: Launch(places[1])}), "ball_collision")
+        vx, vy = after(hit, 1).velocity
+        throws.append(lean - math.atan2(vy, vx))
+    assert math.degrees(throws[0]) > math.degrees(throws[1]) + 1.0
+    outs = []
+    for side in (-40.0, 0.0, 40.0):
+        hit = first(let_go(NINE, {0: rolling((1.1, 0.9), (1.0, 1.0), side)}), "rail_collision")
+        vx, vy = after(hit, 0).velocity
+        outs.append(math.degrees(math.atan2(vy, -vx)))
+    assert max(outs) - min(outs) > 5.0
+    assert outs[1] == pytest.approx(43.7, abs=0.1)
