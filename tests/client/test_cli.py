@@ -127,7 +127,8 @@ def test_simulate_doubts_an_azimuth_that_looks_like_radians(phi, note):
     assert (note in done.stderr) if note else not done.stderr
 
 
-def test_doctor_reports_and_agrees_with_itself():
+def test_doctor_reports_and_agrees_with_itself(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     done = run("doctor", "--json")
     report = json.loads(done.stdout)
     assert done.exit_code == 0, done.stderr

@@ -20,7 +20,7 @@ def camel(code):
 
 @pytest.mark.parametrize(
     ("base", "others"),
-    [(server_errors.ServerError, {"TwoLengths", "TooManyOpen"}), (client_errors.ApiError, set(GROUPS))],
+    [(server_errors.ServerError, {"TwoLengths", "TooManyOpen", "HeadTooLarge"}), (client_errors.ApiError, set(GROUPS))],
     ids=["server", "client"],
 )
 def test_every_code_has_its_class_and_every_class_its_code(base, others):
@@ -32,6 +32,7 @@ def test_every_code_has_its_class_and_every_class_its_code(base, others):
 def test_what_is_a_kind_of_another_problem_has_its_code():
     assert server_errors.TwoLengths.code is ProblemCode.BAD_HEADER
     assert server_errors.TooManyOpen.code is ProblemCode.TOO_MANY_REQUESTS
+    assert server_errors.HeadTooLarge.code is ProblemCode.TOO_LARGE
 
 
 def test_the_clients_groups_are_statuses():

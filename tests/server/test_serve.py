@@ -95,7 +95,7 @@ def test_settings_come_from_the_environment():
 
 
 def test_settings_refuse_what_cannot_be():
-    with pytest.raises(SettingsError, match="body_limit is 0"):
+    with pytest.raises(SettingsError, match="body_limit = 0: must be"):
         Settings(body_limit=0)
 
 

@@ -127,7 +127,7 @@ class Seats:
     def shoot(self, shot: dict[str, Any], key: str = "s", **members: Any) -> dict[str, Any]:
         """The breaker's first stroke; the answer."""
         command = self.stage.command(self.mover, json.dumps({"shot": shot} | members).encode(), key, version=1)
-        return dict(json.loads(strokes.shoot(self.stage.context, self.id, lambda _: command).body))
+        return dict(json.loads(strokes.shoot(self.stage.context, self.id, lambda _: command, may_be_long=True).body))
 
     def concede(self) -> dict[str, Any]:
         """The breaker gives up, which ends the turn; the answer."""
