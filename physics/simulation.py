@@ -11,7 +11,8 @@ from physics.constants import EVENT_LIMIT, N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
 from physics.facts import FACTS_DTYPE, FACTS_WORDS, Facts
-from physics.kernels.layout import F_EVENTS, N_COUNTERS, SHOT_WIDTH, STATE_WIDTH, TRACE_WIDTH
+from physics.kernels import layout as at
+from physics.kernels.layout import F_EVENTS, N_COUNTERS, SHOT_WIDTH
 from physics.parameters import parameters
 from physics.shot import Shot
 from physics.state import TableState
@@ -93,12 +94,14 @@ class Result:
         if not 0.0 <= t <= self.duration:
             raise ValueError(f"t = {t!r}: must be in [0, {self.duration}] s, the duration of the shot")
         rows = self._rows()
-        out = np.empty((1, N_BALLS * STATE_WIDTH))
-        start = resting_states(self._start.reshape(N_BALLS, 2)) if self._start.size == 2 * N_BALLS else self._start
+        start = self._start
+        if start.size == 2 * N_BALLS:
+            start = resting_states(self.table, start.reshape(N_BALLS, 2))
+        out = np.empty_like(start)
         kernels(self.table.has_jaws).state_at(
             parameters(self.table), workspace(), start, rows.reshape(1, -1), float(t), out
         )
-        return Snapshot.from_states(self.table, t, out.reshape(N_BALLS, STATE_WIDTH))
+        return Snapshot.from_states(self.table, t, out.reshape(N_BALLS, -1))
 
     def sample(self, dt: float) -> Iterator[Snapshot]:
         """Snapshots every ``dt`` seconds, the first at 0 and the last at the end.
@@ -159,7 +162,7 @@ def resume(table: Table, snapshot: Snapshot, trace: bool = True, event_limit: in
     if not isinstance(snapshot, Snapshot):
         raise InvalidState("snapshot", snapshot, "must be a physics.Snapshot")
     snapshot.refuse_impossible(table)
-    return _run(table, snapshot.to_states(), NO_SHOT, trace, event_limit)
+    return _run(table, snapshot.to_states(table), NO_SHOT, trace, event_limit)
 
 
 def _run(table: Table, states: Floats, stroke: Floats, trace: bool, event_limit: int) -> Result:
@@ -167,14 +170,15 @@ def _run(table: Table, states: Floats, stroke: Floats, trace: bool, event_limit:
     final, facts = np.empty((1, 2 * N_BALLS)), np.empty((1, FACTS_WORDS), np.int32)
     outputs = final, np.empty((1, N_BALLS), np.int8), facts
     entry, row, work = kernels(table.has_jaws).simulate_rows, parameters(table, event_limit), workspace()
+    width = at.REAL_TRACE_WIDTH if table.has_jaws else at.TRACE_WIDTH
     rows = TRACE_ROWS if trace else 0
-    events = np.empty((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
+    events = np.empty((1, rows * width)) if trace else NO_TRACE
     entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
     n_events = int(facts[0, F_EVENTS])
     if trace and n_events > rows:
-        events = np.empty((1, n_events * TRACE_WIDTH))
+        events = np.empty((1, n_events * width))
         entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
-    kept = events.reshape(-1, TRACE_WIDTH)[:n_events].copy() if trace else None  # and not the room that was not needed
+    kept = events.reshape(-1, width)[:n_events].copy() if trace else None  # and not the room that was not needed
     return Result(table, states, final, facts, kept, n_events)
 
 

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from physics.constants import N_BALLS
 from physics.errors import InvalidState
-from physics.events import KINDS, OFF_TABLE, BallState, Event, EventKind, Motion
+from physics.events import KINDS, OUT_OF_PLAY, BallState, Event, EventKind, Motion
 from physics.kernels import layout as at
-from physics.state import TableState
+from physics.placement import refuse_misplaced, refuse_overlapping
 from physics.table import Table
 
 Floats = NDArray[np.float64]
@@ -29,6 +29,8 @@ class Snapshot:
         positions: (16, 2) m; NaN for a ball that is not on the table.
         velocities: (16, 2) m/s; spins: (16, 3) rad/s; 0 for a ball that is not on the table.
         motion: (16,) int8 of ``Motion``.
+        heights: (16,) m, of the centres above where they rest on the cloth; vertical_velocities: (16,) m/s, upwards.
+            0 unless told.
     """
 
     time: float
@@ -36,34 +38,41 @@ class Snapshot:
     velocities: Floats
     spins: Floats
     motion: NDArray[np.int8]
+    heights: Floats = dataclasses.field(default_factory=lambda: np.zeros(N_BALLS))
+    vertical_velocities: Floats = dataclasses.field(default_factory=lambda: np.zeros(N_BALLS))
 
     @classmethod
     def from_states(cls, table: Table, time: float, states: Floats) -> Self:
-        """From (16, STATE_WIDTH) rows x y vx vy wx wy wz motion, positions from the table's centre."""
+        """From (16, n) rows x y vx vy wx wy wz motion and, on a table with jaws, z vz; places from the table's centre."""
         motion = states[:, at.A_MOTION].astype(np.int8)
-        away = np.isin(motion, OFF_TABLE)
+        away = np.isin(motion, OUT_OF_PLAY)
         positions = states[:, PLACE] + (0.5 * table.width, 0.5 * table.length)
         positions[away] = np.nan
-        return cls(time, positions, states[:, VELOCITY].copy(), states[:, SPIN].copy(), motion)
+        snapshot = cls(time, positions, states[:, VELOCITY].copy(), states[:, SPIN].copy(), motion)
+        if table.has_jaws:
+            snapshot.heights[:], snapshot.vertical_velocities[:] = states[:, at.A_Z], states[:, at.A_VZ]
+        return snapshot
 
     def refuse_impossible(self, table: Table) -> None:
         """Raise InvalidState unless this can be an instant of a shot on ``table``.
 
-        Shapes as above; ``motion`` a ``Motion``; a ball on the table within its cushion and mouth lines, overlapping no
-        other by more than ``PLACEMENT_TOLERANCE``; velocities and spins finite and fitting the motion.
+        Shapes as above; ``motion`` a ``Motion``; a ball on the cloth within its cushion and mouth lines, a flying one
+        clear of the cushions; no two overlapping by more than ``PLACEMENT_TOLERANCE``; velocities and spins finite and
+        fitting the motion.
         """
-        shapes = (self.positions.shape, self.velocities.shape, self.spins.shape, self.motion.shape)
-        if shapes != ((N_BALLS, 2), (N_BALLS, 2), (N_BALLS, 3), (N_BALLS,)):
-            raise InvalidState("snapshot", shapes, "must have shapes (16, 2), (16, 2), (16, 3) and (16,)")
+        given = (self.positions, self.velocities, self.spins, self.motion, self.heights, self.vertical_velocities)
+        shapes = tuple(np.shape(array) for array in given)
+        n = N_BALLS
+        if shapes != ((n, 2), (n, 2), (n, 3), (n,), (n,), (n,)):
+            raise InvalidState("snapshot", shapes, "must have shapes (16, 2), (16, 2), (16, 3) and three times (16,)")
         for ball, number in enumerate(self.motion.tolist()):
             if number not in iter(Motion):
                 raise InvalidState(f"motion[{ball}]", number, f"must be one of {[int(motion) for motion in Motion]}")
-        here = np.flatnonzero(~np.isin(self.motion, OFF_TABLE)).tolist()
-        TableState.from_positions({ball: self.positions[ball] for ball in here})
+        here = np.flatnonzero(~np.isin(self.motion, OUT_OF_PLAY)).tolist()
         for ball in here:
-            if not table.in_play(*self.positions[ball].tolist()):
-                raise InvalidState(f"positions[{ball}]", self.positions[ball].tolist(), "must lie on the table")
+            refuse_misplaced(self, table, ball)
             self._refuse_misfit(table, ball)
+        refuse_overlapping(self, here)
 
     def _refuse_misfit(self, table: Table, ball: int) -> None:
         """Raise InvalidState unless a ball's velocity and spin are finite and such as its motion state has."""
@@ -72,27 +81,30 @@ class Snapshot:
         slips = vx - table.ball_radius * wy != 0.0 or vy + table.ball_radius * wx != 0.0
         moves = vx != 0.0 or vy != 0.0
         fits = slips if motion is Motion.SLIDING else moves == (motion is Motion.ROLLING)
-        if not np.isfinite((vx, vy, wx, wy, wz)).all() or not fits:
+        if not np.isfinite((vx, vy, wx, wy, wz)).all() or not (fits or motion is Motion.FLYING):
             allowed = f"must be finite and those of a ball that is {motion.name.lower()}"
             raise InvalidState(f"velocities[{ball}], spins[{ball}]", (vx, vy, wx, wy, wz), allowed)
 
-    def to_states(self) -> Floats:
-        """(1, 128): the kernels' rows, positions in the table's frame."""
-        states = np.zeros((N_BALLS, at.STATE_WIDTH))
+    def to_states(self, table: Table) -> Floats:
+        """(1, n): the kernels' rows, positions in the table's frame."""
+        states = np.zeros((N_BALLS, at.REAL_STATE_WIDTH if table.has_jaws else at.STATE_WIDTH))
         states[:, PLACE] = np.nan_to_num(self.positions)
         states[:, VELOCITY] = self.velocities
         states[:, SPIN] = self.spins
         states[:, at.A_MOTION] = self.motion
+        if table.has_jaws:
+            states[:, at.A_Z], states[:, at.A_VZ] = self.heights, self.vertical_velocities
         return states.reshape(1, -1)
 
 
 class Events(Sequence[Event]):
     """The events of a shot: a sequence whose ``Event`` objects are built when read."""
 
-    __slots__ = ("_offset", "_rows")
+    __slots__ = ("_flight", "_offset", "_rows")
 
     def __init__(self, table: Table, rows: Floats) -> None:
         self._rows = rows
+        self._flight = table.flies
         self._offset = (0.5 * table.width, 0.5 * table.length)
 
     def __len__(self) -> int:
@@ -120,20 +132,21 @@ class Events(Sequence[Event]):
     def _event(self, place: int) -> Event:
         row = self._rows[place].tolist()
         kind, ball, other = KINDS[int(row[at.T_KIND])], int(row[at.T_BALL]), int(row[at.T_OTHER])
-        states: tuple[BallState, ...] = (self._state(ball, row[at.T_FIRST : at.T_SECOND]),)
+        second = (at.T_FIRST + len(row)) // 2
+        states: tuple[BallState, ...] = (self._state(ball, row[at.T_FIRST : second]),)
         if kind is EventKind.BALL_COLLISION:
-            states = (*states, self._state(other, row[at.T_SECOND : at.TRACE_WIDTH]))
+            states = (*states, self._state(other, row[second:]))
         return Event(place, row[at.T_TIME], kind, ball, other, states)
 
     def _state(self, ball: int, values: list[float]) -> BallState:
-        x, y, vx, vy, wx, wy, wz, motion = values
+        x, y, vx, vy, wx, wy, wz, motion, *vertical = values
         place = (x + self._offset[0], y + self._offset[1])
-        return BallState(ball, place, (vx, vy), (wx, wy, wz), Motion(int(motion)))
+        return BallState(ball, place, (vx, vy), (wx, wy, wz), Motion(int(motion)), *vertical, flight=self._flight)
 
 
-def resting_states(positions: Floats) -> Floats:
-    """(1, 128) rows of balls at rest at ``positions`` (16, 2), in the table's frame."""
-    states = np.zeros((N_BALLS, at.STATE_WIDTH))
+def resting_states(table: Table, positions: Floats) -> Floats:
+    """(1, n) rows of balls at rest at ``positions`` (16, 2), in the table's frame."""
+    states = np.zeros((N_BALLS, at.REAL_STATE_WIDTH if table.has_jaws else at.STATE_WIDTH))
     absent = np.isnan(positions[:, 0])
     states[:, PLACE] = np.where(absent[:, None], 0.0, positions)
     states[:, at.A_MOTION] = np.where(absent, Motion.ABSENT, Motion.STATIONARY)

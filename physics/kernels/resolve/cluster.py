@@ -4,7 +4,7 @@ Pairwise impulses in some order are no answer: which ball of a struck rack moves
 acts in rounds, each from one common set of velocities (docs/physics.md, "Contacts"):
 
 1. balls: all touching pairs approaching faster than SLOW_APPROACH act together (impulses.py);
-2. cushions, only when no pair approaches;
+2. cushions, only when no pair approaches; where balls fly, then the cloth;
 3. resting: pairs and cushions that would meet again within REST_TIME are parted or held (resting.py).
 
 Nothing looks at ball numbers, left or right. Every round parts what approached by at least SLOW_APPROACH, and a pair
@@ -27,10 +27,12 @@ from physics.kernels.resolve.boundary import (
     touched_cushion,
 )
 from physics.kernels.resolve.cloth import restate
+from physics.kernels.resolve.flight import any_flies, meet_cloth, report_landing
 from physics.kernels.resolve.impulses import push_pairs, settle_slow_pairs
 from physics.kernels.resolve.resting import energy, lay_still, part_pressed_pairs, scale_down
 from physics.kernels.resolve.touching import bring, gather, neighbours, neighbours_of_two, pair
-from physics.kernels.tolerances import ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION, STOP_BELOW
+from physics.kernels.tolerances import PERCHED_AFTER, ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION, STOP_BELOW
+from physics.kernels.workspace import by_table
 
 UNSETTLED = -1
 """Returned instead of a bit set when ROUND_LIMIT was reached."""
@@ -121,6 +123,77 @@ def hold_at_cushions(s, members, also_returning):
     return changed
 
 
+@kernel
+def goes_down(s, members):
+    """See ``landing_balls``."""
+    found = 0
+    rest = members & load_integer(s.k, at.FLYING_BALLS)
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        if load(s.w, at.Z + i) == 0.0 and load(s.w, at.VZ + i) < 0.0:
+            found |= 1 << i
+    return found
+
+
+@small_kernel
+def none_goes_down(_s, _members):
+    """See ``landing_balls``."""
+    return 0
+
+
+landing_balls = by_table(none_goes_down, goes_down)
+"""``landing_balls(s, members)``: bit set of the members that are at the cloth and going down."""
+
+
+@kernel
+def meet_cloth_and_report(s, members, landing, time):
+    """See ``meet_cloths``."""
+    rest = goes_down(s, members)
+    found = rest
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        meet_cloth(s, i, time)
+        restate(s, 1 << i)
+        if landing >> i & 1:
+            report_landing(s, i, time)
+    return found
+
+
+@small_kernel
+def meet_no_cloth(_s, _members, _landing, _time):
+    """See ``meet_cloths``."""
+    return 0
+
+
+meet_cloths = by_table(meet_no_cloth, meet_cloth_and_report)
+"""``meet_cloths(s, members, landing, time)``: the cloth's round: impacts of the members that go down onto it, those in ``landing``
+recorded; bit set of them all."""
+
+
+@small_kernel
+def count_none(_s, _changed):
+    """See ``count_partings``."""
+
+
+@kernel
+def count_in_air(s, changed):
+    """See ``count_partings``."""
+    rest = changed & load_integer(s.k, at.FLYING_BALLS)
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        times = load_integer(s.k, at.PARTINGS + i) + 1
+        store_integer(s.k, at.PARTINGS + i, times)
+        if times > PERCHED_AFTER and load(s.w, at.Z + i) > 0.0:
+            store_integer(s.k, at.PERCHED_BALLS, load_integer(s.k, at.PERCHED_BALLS) | 1 << i)
+
+
+count_partings = by_table(count_none, count_in_air)
+"""``count_partings(s, changed)``: count which flying balls step 3 has parted; one that was parted too often is perched."""
+
+
 @small_kernel
 def calm(s, members, allowed, quiet, time):
     """After the rounds: bound the energy, stop what hardly moves; record the balls in ``quiet`` and those changed here.
@@ -147,6 +220,8 @@ def settle_cluster(s, i, time):
     quiet = 0  # balls changed since their last event
     allowed = -1.0  # energy before anything was held or parted
     resting = False  # step 3 has begun
+    parted = 0  # balls that step 3 has changed
+    landing = landing_balls(s, members)  # by a flight that ends here
     for _ in range(ROUND_LIMIT):
         pushed = 0 if resting else push_pairs(s, members)
         if pushed != 0:
@@ -160,7 +235,10 @@ def settle_cluster(s, i, time):
         quiet = quiet & ~rebounding | held
         if held != 0 and allowed < 0.0:
             allowed = before
-        if rebounding | held:
+        fallen = meet_cloths(s, members, landing, time)
+        quiet = (quiet | fallen) & ~(fallen & landing)
+        landing &= ~fallen
+        if rebounding | held | fallen:
             continue
         if not resting:
             resting = True
@@ -172,7 +250,9 @@ def settle_cluster(s, i, time):
         changed = part_pressed_pairs(s) | hold_at_cushions(s, members, plain(1))
         restate(s, changed)
         quiet |= changed
+        parted |= changed
         if changed == 0 or STOP_BELOW * energy(s, members) > allowed:
+            count_partings(s, parted)
             calm(s, members, allowed, quiet, time)
             return members
     return UNSETTLED
@@ -204,6 +284,22 @@ def meet_ball_alone(s, i, j, time):
     return -approach(s, touch) > load(s.p, at.P_SLIDE) * load(s.p, at.P_REST_TIME)
 
 
+@small_kernel
+def lands_nowhere(_s, _i):
+    """See ``is_landing``."""
+    return False
+
+
+@small_kernel
+def is_at_cloth(s, i):
+    """See ``is_landing``."""
+    return any_flies(s, 1 << i) and load(s.w, at.Z + i) == 0.0
+
+
+is_landing = by_table(lands_nowhere, is_at_cloth)
+"""``is_landing(s, i)``: whether a flying ball is at the cloth, which has its say then."""
+
+
 @kernel
 def settle(s, i, j, time):
     """Resolve the touching cluster of ball ``i`` at ``time``; ``j``: the ball it meets there, or NOBODY.
@@ -216,10 +312,11 @@ def settle(s, i, j, time):
     if j != at.NOBODY and cushion == at.NO_CUSHION:
         bring(s, j, time)
         near_i, near_j = neighbours_of_two(s, i, j, time)
-        if near_i == 1 << j and near_j == 1 << i and touched_cushion(s, j) == at.NO_CUSHION:
+        alone = near_i == 1 << j and near_j == 1 << i and touched_cushion(s, j) == at.NO_CUSHION
+        if alone and not any_flies(s, 1 << i | 1 << j):
             low, high = min(i, j), max(i, j)
             if meet_ball_alone(s, low, high, time):
                 return 1 << i | 1 << j
-    elif neighbours(s, i, time) == 0 and (cushion == at.NO_CUSHION or meet_cushion_alone(s, i, cushion, time)):
+    elif neighbours(s, i, time) == 0 and not is_landing(s, i) and (cushion == at.NO_CUSHION or meet_cushion_alone(s, i, cushion, time)):
         return 1 << i
     return settle_cluster(s, i, time)
