@@ -5,11 +5,12 @@ from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from physics.constants import EVENT_LIMIT, N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
+from physics.events import OUT_OF_PLAY
 from physics.facts import FACTS_DTYPE, FACTS_WORDS, Facts
 from physics.kernels import layout as at
 from physics.kernels.layout import F_EVENTS, N_COUNTERS, SHOT_WIDTH
@@ -18,7 +19,7 @@ from physics.shot import Shot
 from physics.state import TableState
 from physics.status import Status
 from physics.table import Table
-from physics.trajectory import Events, Snapshot, resting_states
+from physics.trajectory import PLACE, Events, Snapshot, resting_states, state_width
 
 TRACE_ROWS = 192
 """Events a trace has room for at first; a shot with more is simulated again with room for all."""
@@ -93,15 +94,41 @@ class Result:
         """
         if not 0.0 <= t <= self.duration:
             raise ValueError(f"t = {t!r}: must be in [0, {self.duration}] s, the duration of the shot")
-        rows = self._rows()
-        start = self._start
+        states = self._states(np.array([[t]], dtype=np.float64))
+        return Snapshot.from_states(self.table, t, states.reshape(N_BALLS, -1))
+
+    def paths(self, times: ArrayLike) -> tuple[Floats, Floats]:
+        """Where all balls are at n times (s), in any order: positions (n, 16, 2) m and heights (n, 16) m.
+
+        NaN for a ball that is not on the table then. The numbers of ``at``, many at once.
+
+        Raises:
+            ValueError: a time is outside [0, duration], ``times`` is not one row of numbers, or there is no trace.
+        """
+        wanted = np.asarray(times)
+        if wanted.ndim != 1 or wanted.dtype.kind not in "iuf":
+            raise ValueError(f"times = {times!r}: must be numbers, (n,)")
+        wanted = wanted.astype(np.float64)
+        if not ((wanted >= 0.0) & (wanted <= self.duration)).all():
+            raise ValueError(f"times = {times!r}: must be in [0, {self.duration}] s, the duration of the shot")
+        order = np.argsort(wanted, kind="stable")
+        states = np.empty((len(wanted), N_BALLS, state_width(self.table)))
+        states[order] = self._states(wanted[order].reshape(1, -1)).reshape(states.shape)
+        positions = states[:, :, PLACE] + (0.5 * self.table.width, 0.5 * self.table.length)
+        heights = states[:, :, at.A_Z].copy() if self.table.has_jaws else np.zeros(states.shape[:2])
+        away = np.isin(states[:, :, at.A_MOTION], OUT_OF_PLAY)
+        positions[away], heights[away] = np.nan, np.nan
+        return positions, heights
+
+    def _states(self, times: Floats) -> Floats:
+        """The kernels' states at ascending ``times`` (1, n), one row each."""
+        rows, start = self._rows(), self._start
         if start.size == 2 * N_BALLS:
             start = resting_states(self.table, start.reshape(N_BALLS, 2))
-        out = np.empty_like(start)
-        kernels(self.table.has_jaws).state_at(
-            parameters(self.table), workspace(), start, rows.reshape(1, -1), float(t), out
-        )
-        return Snapshot.from_states(self.table, t, out.reshape(N_BALLS, -1))
+        out = np.empty((times.shape[1], N_BALLS * state_width(self.table)))
+        find = kernels(self.table.has_jaws).states_at
+        find(parameters(self.table), workspace(), start, rows.reshape(1, -1), times, out)
+        return out
 
     def sample(self, dt: float) -> Iterator[Snapshot]:
         """Snapshots every ``dt`` seconds, the first at 0 and the last at the end.

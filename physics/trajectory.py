@@ -20,6 +20,11 @@ PLACE, VELOCITY, SPIN = slice(at.A_X, at.A_VX), slice(at.A_VX, at.A_WX), slice(a
 """Columns of a ball's state."""
 
 
+def state_width(table: Table) -> int:
+    """Numbers of a ball's state in the kernels' rows: on a table with jaws there are a height and its speed."""
+    return at.REAL_STATE_WIDTH if table.has_jaws else at.STATE_WIDTH
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Snapshot:
     """All balls at one time.
@@ -87,7 +92,7 @@ class Snapshot:
 
     def to_states(self, table: Table) -> Floats:
         """(1, n): the kernels' rows, positions in the table's frame."""
-        states = np.zeros((N_BALLS, at.REAL_STATE_WIDTH if table.has_jaws else at.STATE_WIDTH))
+        states = np.zeros((N_BALLS, state_width(table)))
         states[:, PLACE] = np.nan_to_num(self.positions)
         states[:, VELOCITY] = self.velocities
         states[:, SPIN] = self.spins
@@ -146,7 +151,7 @@ class Events(Sequence[Event]):
 
 def resting_states(table: Table, positions: Floats) -> Floats:
     """(1, n) rows of balls at rest at ``positions`` (16, 2), in the table's frame."""
-    states = np.zeros((N_BALLS, at.REAL_STATE_WIDTH if table.has_jaws else at.STATE_WIDTH))
+    states = np.zeros((N_BALLS, state_width(table)))
     absent = np.isnan(positions[:, 0])
     states[:, PLACE] = np.where(absent[:, None], 0.0, positions)
     states[:, at.A_MOTION] = np.where(absent, Motion.ABSENT, Motion.STATIONARY)

@@ -21,10 +21,10 @@ def simulate_rows(p, work, states, shots, final, pockets, facts, trace, counters
         tasks.simulate_row(s, n, states, shots, final, pockets, facts, rows, counters)
 
 
-@entry(NONE, READ, WRITTEN, READ, READ, FLOAT, WRITTEN)
-def state_at(p, work, states, trace, time, out):
+@entry(NONE, READ, WRITTEN, READ, READ, READ, WRITTEN)
+def states_at(p, work, states, trace, times, out):
     """See ``entries``."""
-    tasks.state_at(bare_real_workspace(p, work), states, trace, time, out)
+    tasks.states_at(bare_real_workspace(p, work), states, trace, times, out)
 
 
 @entry(types.UniTuple(INTEGER, 2), READ, WRITTEN, READ, READ)

@@ -91,26 +91,29 @@ def take_state(s, i, memory, start, time):
 
 
 @kernel
-def state_at(s, states, trace, time, out):
-    """States of all balls at ``time``, from the states at the start and the trace; (1, 128), from the centre."""
-    restore(s, row(states, 0))
+def states_at(s, states, trace, times, out):
+    """States of all balls at ascending ``times`` (1, n), from the states at the start and the trace; a row of ``out``
+    each, from the centre."""
     last = np.full(at.LANES, -1)
     width = state_width(s)
     stride = at.T_FIRST + 2 * width
-    for n in range(trace.shape[1] // stride):
-        start = n * stride
-        if trace[0, start + at.T_TIME] > time:
-            break
-        last[int(trace[0, start + at.T_BALL])] = start + at.T_FIRST
-        if int(trace[0, start + at.T_KIND]) == at.BALL_COLLISION:
-            last[int(trace[0, start + at.T_OTHER])] = start + at.T_FIRST + width
-    for i in range(at.LANES):
-        if last[i] >= 0:
-            since = trace[0, last[i] // stride * stride + at.T_TIME]
-            take_state(s, i, row(trace, 0), last[i], since)
-        if on_table(load_integer(s.k, at.MOTION + i)):
-            advance(s, i, time)
-        write_state(s, i, row(out, 0), i * width)
+    event = 0
+    for n in range(times.shape[1]):
+        time = times[0, n]
+        while event < trace.shape[1] // stride and trace[0, event * stride + at.T_TIME] <= time:
+            start = event * stride
+            last[int(trace[0, start + at.T_BALL])] = start + at.T_FIRST
+            if int(trace[0, start + at.T_KIND]) == at.BALL_COLLISION:
+                last[int(trace[0, start + at.T_OTHER])] = start + at.T_FIRST + width
+            event += 1
+        restore(s, row(states, 0))
+        for i in range(at.LANES):
+            if last[i] >= 0:
+                since = trace[0, last[i] // stride * stride + at.T_TIME]
+                take_state(s, i, row(trace, 0), last[i], since)
+            if on_table(load_integer(s.k, at.MOTION + i)):
+                advance(s, i, time)
+            write_state(s, i, row(out, n), i * width)
 
 
 @kernel

@@ -56,7 +56,7 @@ RAIL_CAP = 0.0406
 """m. A ball that leaves a hole towards the rail with its lowest point below this height is caught by the pocket's
 liner: cap of a rail with a K-66 cushion (choice)."""
 
-PERCHED_AFTER = 1000
+PERCHED_AFTER = 2000
 """Partings by step 3 of the contact rule after which a ball in the air is perched: a wedge of balls and cushion holds
 it, and it would be parted a thousand times a second for ever. A ball that comes down takes a few hundred."""
 

@@ -35,7 +35,7 @@ def earlier(best, time, kind, number):
     return Coming(time, kind, number) if time < best.time else best
 
 
-@small_kernel
+@kernel
 def meet_jaw_in_air(s, mouth, number, path, rise, lasts, best):
     """Jaw ``number``, before ``best``; ``path`` in its coordinates, ``rise`` above the nose."""
     jaw, radius = jaw_at(s, mouth), load(s.p, at.P_RADIUS)
@@ -77,7 +77,7 @@ def is_on_shelf(s, pocket, x, y):
     return (one > 0.0) & (other > 0.0) & (x > 0.0)
 
 
-@small_kernel
+@kernel
 def meet_liner(s, pocket, path, height, lasts, best):
     """The liner of a pocket, before ``best``: a ball that leaves the hole towards the rail, no higher than its cap."""
     here = from_hole(s, pocket, path)
@@ -140,7 +140,7 @@ def meet_noses_in_air(s, path, rise, lasts, best):
     return best
 
 
-@small_kernel
+@kernel
 def may_come_to(s, pocket, path, lasts):
     """Whether a straight path may come near to what belongs to a mouth, the hole included."""
     sign_x, sign_y = signs_of(pocket)
@@ -157,7 +157,7 @@ def may_come_to(s, pocket, path, lasts):
     return (u <= load(s.p, at.P_RADIUS) + load(s.p, mouth + at.JAW_HORN) + SPARE) & (low <= reach) & (high >= -reach)
 
 
-@small_kernel
+@kernel
 def meet_top(s, path, height, lasts, best):
     """The top of the rails, before ``best``."""
     t = falls_to(height, load(s.p, at.P_NOSE))

@@ -47,7 +47,7 @@ def meets_edge(radius, gap, foot, length, rise, lasts, limit):
     return reach_of_edge(path, start, end, limit, radius)
 
 
-@small_kernel
+@kernel
 def meets_ring_from(radius, path, start, end, limit):
     """A ring, from ``start`` on until ``end``, outside of it in plan."""
     if not start <= min(end, limit):

@@ -6,7 +6,7 @@ The whole top lies at the height of the nose. In a mouth the cushion ends at hor
 import math
 
 from physics.kernels import layout as at
-from physics.kernels.compiling import load, small_kernel
+from physics.kernels.compiling import kernel, load, small_kernel
 from physics.kernels.detect.jaws import from_facing
 from physics.kernels.detect.mouths import (
     NO_MOUTH,
@@ -69,7 +69,7 @@ def is_over(s, pocket, x, y):
     return here.x * here.x + here.y * here.y < radius * radius
 
 
-@small_kernel
+@kernel
 def hole_under(s, x, y):
     """The pocket whose hole a place is over, or NO_MOUTH."""
     corner, side = corner_near(x, y), side_near(x)
@@ -78,7 +78,7 @@ def hole_under(s, x, y):
     return side if is_over(s, side, x, y) else NO_MOUTH
 
 
-@small_kernel
+@kernel
 def is_over_rail(s, x, y):
     """Whether a place in plan is over the top of a cushion or of the rail behind it."""
     u, v = load(s.p, at.P_HALF_X) - abs(x), load(s.p, at.P_HALF_Y) - abs(y)

@@ -78,7 +78,7 @@ def begin_on_cloth(s, i, motion):
     store(s.w, at.END + i, load(s.w, at.SINCE + i) + lasts)
 
 
-@small_kernel
+@kernel
 def begin_anywhere(s, i, motion):
     """See ``begin``."""
     if motion == at.FLYING:

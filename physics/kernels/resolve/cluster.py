@@ -7,12 +7,16 @@ acts in rounds, each from one common set of velocities (docs/physics.md, "Contac
 2. cushions, only when no pair approaches; where balls fly, then the cloth;
 3. resting: pairs and cushions that would meet again within REST_TIME are parted or held (resting.py).
 
+What friction is for balls on the cloth, nothing is for a ball that others hold up: gravity presses it anew for ever. So
+where a ball flies, what the collisions of the instant took may go into parting it: a ball that rests on others bounces
+by a micrometre, a thousand times a second, as if elastic, until it has come down or is perched.
+
 Nothing looks at ball numbers, left or right. Every round parts what approached by at least SLOW_APPROACH, and a pair
 left alone meets at most once in REST_TIME: it ends.
 """
 
 from physics.kernels import layout as at
-from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store_integer
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store, store_integer
 from physics.kernels.recording import note_contact, note_cushion, record
 from physics.kernels.resolve.ball_ball import approach, push_alone, touch_of
 from physics.kernels.resolve.boundary import (
@@ -127,7 +131,7 @@ def hold_at_cushions(s, members, also_returning):
 def goes_down(s, members):
     """See ``landing_balls``."""
     found = 0
-    rest = members & load_integer(s.k, at.FLYING_BALLS)
+    rest = members if load(s.p, at.P_FLIGHT) != 0.0 else 0
     while rest != 0:
         i = lowest_bit(rest)
         rest &= rest - 1
@@ -172,6 +176,22 @@ meet_cloths = by_table(meet_no_cloth, meet_cloth_and_report)
 recorded; bit set of them all."""
 
 
+@kernel
+def stop_going_down(s, members):
+    """See ``press_down``."""
+    found = goes_down(s, members)
+    rest = found
+    while rest != 0:
+        i = lowest_bit(rest)
+        rest &= rest - 1
+        store(s.w, at.VZ + i, 0.0)
+    return found
+
+
+press_down = by_table(none_goes_down, stop_going_down)
+"""``press_down(s, members)``: the cloth takes what step 3 has left of a motion into it; bit set of the balls changed."""
+
+
 @small_kernel
 def count_none(_s, _changed):
     """See ``count_partings``."""
@@ -195,14 +215,17 @@ count_partings = by_table(count_none, count_in_air)
 
 
 @small_kernel
-def calm(s, members, allowed, quiet, time):
+def calm(s, members, allowed, in_air, quiet, time):
     """After the rounds: bound the energy, stop what hardly moves; record the balls in ``quiet`` and those changed here.
 
     A contact event tells of every ball that changed since its last event.
     """
-    if scale_down(s, members, allowed):
+    if scale_down(s, members, allowed, in_air):
         quiet = members
         restate(s, members)
+    pressed = press_down(s, members)
+    restate(s, pressed)
+    quiet |= pressed
     stilled = lay_still(s, members)
     restate(s, stilled)
     quiet |= stilled
@@ -222,6 +245,9 @@ def settle_cluster(s, i, time):
     resting = False  # step 3 has begun
     parted = 0  # balls that step 3 has changed
     landing = landing_balls(s, members)  # by a flight that ends here
+    in_air = any_flies(s, members)
+    if in_air:
+        allowed = energy(s, members)
     for _ in range(ROUND_LIMIT):
         pushed = 0 if resting else push_pairs(s, members)
         if pushed != 0:
@@ -235,7 +261,11 @@ def settle_cluster(s, i, time):
         quiet = quiet & ~rebounding | held
         if held != 0 and allowed < 0.0:
             allowed = before
-        fallen = meet_cloths(s, members, landing, time)
+        if resting:
+            fallen = press_down(s, members)
+            restate(s, fallen)
+        else:
+            fallen = meet_cloths(s, members, landing, time)
         quiet = (quiet | fallen) & ~(fallen & landing)
         landing &= ~fallen
         if rebounding | held | fallen:
@@ -243,6 +273,7 @@ def settle_cluster(s, i, time):
         if not resting:
             resting = True
             changed = settle_slow_pairs(s, members)
+            changed |= press_down(s, members)
             restate(s, changed)
             quiet |= changed
         if allowed < 0.0:
@@ -251,9 +282,9 @@ def settle_cluster(s, i, time):
         restate(s, changed)
         quiet |= changed
         parted |= changed
-        if changed == 0 or STOP_BELOW * energy(s, members) > allowed:
+        if changed == 0 or (not in_air and STOP_BELOW * energy(s, members) > allowed):
             count_partings(s, parted)
-            calm(s, members, allowed, quiet, time)
+            calm(s, members, allowed, in_air, quiet, time)
             return members
     return UNSETTLED
 

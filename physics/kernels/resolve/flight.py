@@ -143,7 +143,7 @@ def meet_cloth(s, i, time):
         set_motion(s, i, v, w)
 
 
-@small_kernel
+@kernel
 def struck_off(s, v, w):
     """Velocity and spin of the cue ball when the cloth has answered a strike: ``e_strike`` if it went down."""
     if v[2] < 0.0:

@@ -82,7 +82,7 @@ def touched_in_air(s, i):
     return at.NO_CUSHION
 
 
-@small_kernel
+@kernel
 def edge_of(s, wall, i):
     """The edge of a wall, where flying ball ``i`` touches it: its normal leans by the height above the nose."""
     zeta = load(s.w, at.Z + i) - load(s.p, at.P_NOSE_RISE)
@@ -100,7 +100,7 @@ def opening_in_air(s, edge, i):
     return plan + load(s.w, at.VZ + i) * edge.nz
 
 
-@small_kernel
+@kernel
 def rebound_in_air(s, edge, i):
     """A collision with an edge: the impact law. A nose over the ball's middle presses it down, for PRESS_TIME."""
     e, mu = load(s.p, at.P_E_CUSHION), load(s.p, at.P_MU_CUSHION)
@@ -120,7 +120,7 @@ def open_at(s, edge, i, speed):
     store(s.w, at.VZ + i, load(s.w, at.VZ + i) + more * edge.nz)
 
 
-@small_kernel
+@kernel
 def half_towards_edge(s, edge, wall, i):
     """Half the acceleration at which ball ``i`` returns to an edge, m/s^2: gravity's, less the centrifugal of its arc.
 

@@ -99,12 +99,15 @@ def energy(s, members):
 
 
 @kernel
-def scale_down(s, members, allowed):
-    """Scale velocities and spins so that the cluster's energy is at most ``allowed``; whether it had to (eq. 31)."""
+def scale_down(s, members, allowed, in_air):
+    """Scale velocities and spins so that the cluster's energy is at most ``allowed``; whether it had to (eq. 31).
+
+    One that would lose more than half stops instead, unless a ball of it is ``in_air``.
+    """
     now = energy(s, members)
     if now <= allowed:
         return False
-    scale = math.sqrt(allowed / now) if allowed >= STOP_BELOW * now else 0.0
+    scale = math.sqrt(allowed / now) if in_air or allowed >= STOP_BELOW * now else 0.0
     rest = members
     while rest != 0:
         i = lowest_bit(rest)

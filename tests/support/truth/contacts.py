@@ -161,7 +161,8 @@ def collide(cluster: Cluster, cushions_only: bool = False) -> None:
             if hits:
                 wall_round(cluster, hits)
             stay_down(cluster)
-            if not cloth_round(cluster) and not hits:
+            fallen = press_down(cluster) if cushions_only else cloth_round(cluster)
+            if not fallen and not hits:
                 break
         stay_down(cluster)
     reclassify(cluster)
@@ -258,17 +259,31 @@ def total_energy(cluster: Cluster) -> mpf:
 
 def resolve(cluster: Cluster) -> None:
     """The whole rule: collide, then part what presses, the energy never above that before the parting."""
+    in_air = any(is_airborne(ball) for ball in cluster.balls)
+    if in_air:
+        limit_from_now(cluster)
     collide(cluster)
     remove_remainder(cluster)
+    press_down(cluster)
     reclassify(cluster)
     limit_from_now(cluster)
     while part_pressed(cluster):
         reclassify(cluster)
-        if total_energy(cluster) > 2 * cluster.allowed:
+        if not in_air and total_energy(cluster) > 2 * cluster.allowed:
             break
         collide(cluster, cushions_only=True)
-    limit_energy(cluster)
+    limit_energy(cluster, in_air)
+    press_down(cluster)
     lay_still(cluster)
+
+
+def press_down(cluster: Cluster) -> bool:
+    """The cloth takes what the parting has left of a motion into it; was there any?"""
+    falling = [ball for ball in cluster.balls if goes_down(ball)]
+    for ball in falling:
+        ball.rise = mpf(0)
+    reclassify(cluster)
+    return bool(falling)
 
 
 def lay_still(cluster: Cluster) -> None:
@@ -285,12 +300,12 @@ def limit_from_now(cluster: Cluster) -> None:
         cluster.allowed = total_energy(cluster)
 
 
-def limit_energy(cluster: Cluster) -> None:
-    """All velocities and spins times one factor; a cluster that would lose half its energy stops."""
+def limit_energy(cluster: Cluster, in_air: bool) -> None:
+    """All velocities and spins times one factor; a cluster that would lose half its energy stops, unless in the air."""
     before, after = cluster.allowed, total_energy(cluster)
     if after <= before:
         return
-    factor = mpf(0) if after > 2 * before else (before / after) ** mpf("0.5")
+    factor = mpf(0) if after > 2 * before and not in_air else (before / after) ** mpf("0.5")
     for ball in cluster.balls:
         ball.velocity, ball.w_xy, ball.w_z = factor * ball.velocity, factor * ball.w_xy, factor * ball.w_z
         ball.rise *= factor
