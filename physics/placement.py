@@ -1,4 +1,4 @@
-"""Where balls may be at an instant of a shot: each on the cloth or clear of the cushions in the air, none in another."""
+"""Where balls may be at an instant of a shot: on the cloth or clear of the cushions in the air, none in another."""
 
 import math
 from typing import Any

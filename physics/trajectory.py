@@ -48,7 +48,7 @@ class Snapshot:
 
     @classmethod
     def from_states(cls, table: Table, time: float, states: Floats) -> Self:
-        """From (16, n) rows x y vx vy wx wy wz motion and, on a table with jaws, z vz; places from the table's centre."""
+        """From (16, n) rows x y vx vy wx wy wz motion and, with jaws, z vz; places from the table's centre."""
         motion = states[:, at.A_MOTION].astype(np.int8)
         away = np.isin(motion, OUT_OF_PLAY)
         positions = states[:, PLACE] + (0.5 * table.width, 0.5 * table.length)
@@ -146,7 +146,8 @@ class Events(Sequence[Event]):
     def _state(self, ball: int, values: list[float]) -> BallState:
         x, y, vx, vy, wx, wy, wz, motion, *vertical = values
         place = (x + self._offset[0], y + self._offset[1])
-        return BallState(ball, place, (vx, vy), (wx, wy, wz), Motion(int(motion)), *vertical, flight=self._flight)
+        height, rising = vertical or (0.0, 0.0)
+        return BallState(ball, place, (vx, vy), (wx, wy, wz), Motion(int(motion)), height, rising, self._flight)
 
 
 def resting_states(table: Table, positions: Floats) -> Floats:

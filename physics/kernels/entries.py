@@ -36,7 +36,7 @@ def simulate_rows(p, work, states, shots, final, pockets, facts, trace, counters
 
 @entry(NONE, READ, WRITTEN, READ, READ, READ, WRITTEN)
 def states_at(p, work, states, trace, times, out):
-    """States of all balls at ascending ``times`` (1, n), from those at the start and the trace; (n, 128), from the centre."""
+    """States of all balls at ascending ``times`` (1, n), from the start's and the trace; (n, 128), from the centre."""
     tasks.states_at(bare_workspace(p, work), states, trace, times, out)
 
 

@@ -1,4 +1,4 @@
-"""How flights end: on the cloth, in a pocket, on a rail or beyond it. Nothing of it is compiled for tables that do not fly."""
+"""How flights end: on the cloth, in a pocket, on a rail or beyond it. Old tables have nothing of it compiled."""
 
 from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store, store_integer
@@ -17,7 +17,7 @@ from physics.kernels.workspace import by_table
 
 @kernel
 def land(s, i, time):
-    """The flight of ball ``i`` ends: in a pocket, or on the cloth; bit set of the balls still to predict, or UNSETTLED."""
+    """The flight of ball ``i`` ends, in a pocket or on the cloth; bit set of the balls to predict, or UNSETTLED."""
     bring(s, i, time)
     store(s.w, at.Z + i, 0.0)
     number = hole_under(s, load(s.w, at.X + i), load(s.w, at.Y + i))
@@ -38,7 +38,7 @@ def land(s, i, time):
 def reach_rail(s, i, time):
     """Ball ``i`` falls on the top of a rail, or is beyond the outer edge; bit set of the balls still to predict.
 
-    The top of a rail counts as a cushion. Where it does not bounce there it is off the table, even if it would roll back.
+    The top of a rail counts as a cushion. A ball that does not bounce there is off the table: it is not let roll back.
     """
     bring(s, i, time)
     if load_integer(s.k, at.KIND + i) == at.LEAVE or not fall_on_rail(s, i):

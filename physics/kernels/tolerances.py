@@ -45,9 +45,9 @@ it such a ball, pushed anew by its neighbour whenever it began to roll, made a m
 neighbour is looked at again before it is 1e-12 m deeper."""
 
 LIFT = 0.05
-"""m/s. A rebound from cloth or rail top that is slower is none: the ball stays down, and the impact is plastic. That is a
-hop of 0.13 mm lasting 10 ms, thinner than the cloth. Where a ball goes does not depend on it: the friction of the hops
-left out is that of sliding for as long (docs/physics.md, eq. 46)."""
+"""m/s. A rebound from cloth or rail top that is slower is none: the ball stays down, and the impact is plastic. That is
+a hop of 0.13 mm lasting 10 ms, thinner than the cloth. Where a ball goes does not depend on it: the friction of the
+hops left out is that of sliding for as long (docs/physics.md, eq. 46)."""
 
 PRESS_TIME = 5e-3
 """s. A ball that a nose has pressed down does not bounce if it lands so soon: the nose still holds it (choice)."""

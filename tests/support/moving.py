@@ -48,7 +48,9 @@ def let_go(table: physics.Table, launches: Mapping[int, Launch], **options: int)
         positions[ball], velocities[ball], spins[ball] = launch.position, launch.velocity, launch.spin
         motion[ball] = launch.motion
         heights[ball], rising[ball] = launch.height, launch.velocity_z
-    return physics.resume(table, physics.Snapshot(0.0, positions, velocities, spins, motion, heights, rising), **options)
+    return physics.resume(
+        table, physics.Snapshot(0.0, positions, velocities, spins, motion, heights, rising), **options
+    )
 
 
 def first(result: physics.Result, kind: str) -> physics.Event:

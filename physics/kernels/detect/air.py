@@ -22,7 +22,7 @@ from physics.kernels.detect.mouths import (
     upper_jaw,
 )
 from physics.kernels.detect.rail_top import falls_to, from_hole, hole_radius, is_over_rail
-from physics.kernels.path import Path, Rise, RingPath, along
+from physics.kernels.path import Path, RingPath, Rise, along
 from physics.kernels.tolerances import RAIL_CAP, TOUCH
 
 SPARE = 1e-3

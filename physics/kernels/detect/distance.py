@@ -1,7 +1,7 @@
 """The squared distance that a path keeps, with its derivatives: what the contact solver steps along.
 
-By the kind of path: |c + b t + a t^2|^2 in the plane and in space, and (q - r)^2 + z^2, q = |p + v t|, by a ring of radius
-r. The plane's expressions are those of every earlier release: their bits stand.
+By the kind of path: |c + b t + a t^2|^2 in the plane and in space, and (q - r)^2 + z^2, q = |p + v t|, by a ring of
+radius r. The plane's expressions are those of every earlier release: their bits stand.
 """
 
 import math

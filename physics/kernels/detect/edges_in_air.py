@@ -35,15 +35,13 @@ def reach_of_edge(path, start, end, limit, radius):
 
 @kernel
 def meets_edge(radius, gap, foot, length, rise, lasts, limit):
-    """A straight edge. ``gap``, ``foot``: (m, m/s) off its line and along it; it lies where the foot is in ``length``."""
+    """A straight edge. ``gap``, ``foot``: (m, m/s) off its line and along it; it is where the foot is in ``length``."""
     start, end = within(foot[0], foot[1], length[0], length[1], 0.0, lasts)
     start, end = within(gap[0], gap[1], 0.0, math.inf, start, end)
     if not start <= min(end, limit):
         return math.inf
     across = max(gap[0] + start * gap[1], 0.0)
-    path = Path(
-        across, along(rise.z, rise.vz, rise.hz, start), gap[1], rise.vz + 2.0 * rise.hz * start, 0.0, rise.hz
-    )
+    path = Path(across, along(rise.z, rise.vz, rise.hz, start), gap[1], rise.vz + 2.0 * rise.hz * start, 0.0, rise.hz)
     return reach_of_edge(path, start, end, limit, radius)
 
 

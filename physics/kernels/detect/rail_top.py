@@ -105,7 +105,7 @@ def rail_at(s, x, y):
 
 @small_kernel
 def falls_to(rise, height):
-    """Time at which a flight falls to ``height`` above it, infinity if it is always below; 0 if it is there, falling."""
+    """Time at which a flight falls to ``height``, infinity if it is always below; 0 if it is there and falls."""
     # z + vz t + hz t^2 = height, the later root; each branch adds numbers of one sign
     above = max(rise.z - height, 0.0) if rise.vz <= 0.0 else rise.z - height
     inside = rise.vz * rise.vz - 4.0 * rise.hz * above

@@ -1,4 +1,4 @@
-"""Two balls alone (docs/physics.md, eq. 12-19, 37): the consistent law, on the cloth and in the air; the historical one."""
+"""Two balls alone (docs/physics.md, eq. 12-19, 37): the consistent law, on cloth and in the air; the historical."""
 
 import math
 from typing import NamedTuple

@@ -16,7 +16,7 @@ left alone meets at most once in REST_TIME: it ends.
 """
 
 from physics.kernels import layout as at
-from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store, store_integer
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store_integer
 from physics.kernels.recording import note_contact, note_cushion, record
 from physics.kernels.resolve.ball_ball import approach, push_alone, touch_of
 from physics.kernels.resolve.boundary import (
@@ -31,12 +31,12 @@ from physics.kernels.resolve.boundary import (
     touched_cushion,
 )
 from physics.kernels.resolve.cloth import restate
-from physics.kernels.resolve.flight import any_flies, meet_cloth, report_landing
+from physics.kernels.resolve.flight import any_flies
 from physics.kernels.resolve.impulses import push_pairs, settle_slow_pairs
+from physics.kernels.resolve.landing import count_partings, is_landing, landing_balls, meet_cloths, press_down
 from physics.kernels.resolve.resting import energy, lay_still, part_pressed_pairs, scale_down
 from physics.kernels.resolve.touching import bring, gather, neighbours, neighbours_of_two, pair
-from physics.kernels.tolerances import PERCHED_AFTER, ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION, STOP_BELOW
-from physics.kernels.workspace import by_table
+from physics.kernels.tolerances import ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION, STOP_BELOW
 
 UNSETTLED = -1
 """Returned instead of a bit set when ROUND_LIMIT was reached."""
@@ -125,93 +125,6 @@ def hold_at_cushions(s, members, also_returning):
                 stop(s, i, cushion)
                 changed |= 1 << i
     return changed
-
-
-@kernel
-def goes_down(s, members):
-    """See ``landing_balls``."""
-    found = 0
-    rest = members if load(s.p, at.P_FLIGHT) != 0.0 else 0
-    while rest != 0:
-        i = lowest_bit(rest)
-        rest &= rest - 1
-        if load(s.w, at.Z + i) == 0.0 and load(s.w, at.VZ + i) < 0.0:
-            found |= 1 << i
-    return found
-
-
-@small_kernel
-def none_goes_down(_s, _members):
-    """See ``landing_balls``."""
-    return 0
-
-
-landing_balls = by_table(none_goes_down, goes_down)
-"""``landing_balls(s, members)``: bit set of the members that are at the cloth and going down."""
-
-
-@kernel
-def meet_cloth_and_report(s, members, landing, time):
-    """See ``meet_cloths``."""
-    rest = goes_down(s, members)
-    found = rest
-    while rest != 0:
-        i = lowest_bit(rest)
-        rest &= rest - 1
-        meet_cloth(s, i, time)
-        restate(s, 1 << i)
-        if landing >> i & 1:
-            report_landing(s, i, time)
-    return found
-
-
-@small_kernel
-def meet_no_cloth(_s, _members, _landing, _time):
-    """See ``meet_cloths``."""
-    return 0
-
-
-meet_cloths = by_table(meet_no_cloth, meet_cloth_and_report)
-"""``meet_cloths(s, members, landing, time)``: the cloth's round: impacts of the members that go down onto it, those in ``landing``
-recorded; bit set of them all."""
-
-
-@kernel
-def stop_going_down(s, members):
-    """See ``press_down``."""
-    found = goes_down(s, members)
-    rest = found
-    while rest != 0:
-        i = lowest_bit(rest)
-        rest &= rest - 1
-        store(s.w, at.VZ + i, 0.0)
-    return found
-
-
-press_down = by_table(none_goes_down, stop_going_down)
-"""``press_down(s, members)``: the cloth takes what step 3 has left of a motion into it; bit set of the balls changed."""
-
-
-@small_kernel
-def count_none(_s, _changed):
-    """See ``count_partings``."""
-
-
-@kernel
-def count_in_air(s, changed):
-    """See ``count_partings``."""
-    rest = changed & load_integer(s.k, at.FLYING_BALLS)
-    while rest != 0:
-        i = lowest_bit(rest)
-        rest &= rest - 1
-        times = load_integer(s.k, at.PARTINGS + i) + 1
-        store_integer(s.k, at.PARTINGS + i, times)
-        if times > PERCHED_AFTER and load(s.w, at.Z + i) > 0.0:
-            store_integer(s.k, at.PERCHED_BALLS, load_integer(s.k, at.PERCHED_BALLS) | 1 << i)
-
-
-count_partings = by_table(count_none, count_in_air)
-"""``count_partings(s, changed)``: count which flying balls step 3 has parted; one that was parted too often is perched."""
 
 
 @small_kernel
@@ -315,22 +228,6 @@ def meet_ball_alone(s, i, j, time):
     return -approach(s, touch) > load(s.p, at.P_SLIDE) * load(s.p, at.P_REST_TIME)
 
 
-@small_kernel
-def lands_nowhere(_s, _i):
-    """See ``is_landing``."""
-    return False
-
-
-@small_kernel
-def is_at_cloth(s, i):
-    """See ``is_landing``."""
-    return any_flies(s, 1 << i) and load(s.w, at.Z + i) == 0.0
-
-
-is_landing = by_table(lands_nowhere, is_at_cloth)
-"""``is_landing(s, i)``: whether a flying ball is at the cloth, which has its say then."""
-
-
 @kernel
 def settle(s, i, j, time):
     """Resolve the touching cluster of ball ``i`` at ``time``; ``j``: the ball it meets there, or NOBODY.
@@ -348,6 +245,10 @@ def settle(s, i, j, time):
             low, high = min(i, j), max(i, j)
             if meet_ball_alone(s, low, high, time):
                 return 1 << i | 1 << j
-    elif neighbours(s, i, time) == 0 and not is_landing(s, i) and (cushion == at.NO_CUSHION or meet_cushion_alone(s, i, cushion, time)):
+    elif (
+        neighbours(s, i, time) == 0
+        and not is_landing(s, i)
+        and (cushion == at.NO_CUSHION or meet_cushion_alone(s, i, cushion, time))
+    ):
         return 1 << i
     return settle_cluster(s, i, time)

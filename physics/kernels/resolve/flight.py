@@ -137,9 +137,7 @@ def meet_cloth(s, i, time):
     elif -v[2] <= SOFT_CUSHION:
         store(s.w, at.VZ + i, 0.0)
     else:
-        v, w = meet_plate(
-            load(s.p, at.P_RADIUS), v, spin_of(s, i), load(s.p, at.P_E_CLOTH), load(s.p, at.P_MU_SLIDE)
-        )
+        v, w = meet_plate(load(s.p, at.P_RADIUS), v, spin_of(s, i), load(s.p, at.P_E_CLOTH), load(s.p, at.P_MU_SLIDE))
         set_motion(s, i, v, w)
 
 

@@ -45,7 +45,7 @@ def friction(slip):
 
 @small_kernel
 def length(vector):
-    """Of a vector of three components; the two in the plane are summed first, so that exchanging them keeps the bits."""
+    """Of a vector of three components; those in the plane are summed first: exchanging them keeps the bits."""
     x, y, z = vector
     return math.sqrt((x * x + y * y) + z * z)
 
@@ -91,7 +91,8 @@ def rubbed(radius, normal, slip, size, most, share):
 def collide_in_space(radius, normal, one, two, e, mu):
     """Two balls of equal mass, anywhere: normal impulse (1 + e)/2 v_n, then friction (docs/physics.md, eq. 37).
 
-    Arguments as for ``slip_in_space``, ``mu`` of friction; balls that do not approach stay as they are. Returns (v1, w1), (v2, w2).
+    Arguments as for ``slip_in_space``, ``mu`` of friction; balls that do not approach stay as they are.
+    Returns (v1, w1), (v2, w2).
     """
     (ax, ay, az), (px, py, pz) = one
     (bx, by, bz), (qx, qy, qz) = two

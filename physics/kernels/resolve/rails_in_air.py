@@ -147,6 +147,6 @@ def returns_in_air(s, edge, wall, i):
 
 @small_kernel
 def hold_in_air(s, edge, wall, i):
-    """A soft touch, or one that gravity would renew at once: the ball opens so fast that it stays away for long enough."""
+    """A soft touch, or one that gravity would renew at once: the ball opens so fast that it stays away long enough."""
     half = max(half_towards_edge(s, edge, wall, i), 0.0)
     open_at(s, edge, i, max(PARTING_SHARE * half * load(s.p, at.P_REST_TIME), 2.0 * SLOW_APPROACH))

@@ -24,7 +24,7 @@ def above_anything(s, i, dt):
 
 
 height_after = by_table(above_cloth, above_anything)
-"""``height_after(s, i, dt)``: height of ball ``i`` after ``dt``, m; 0 on the cloth, which adds nothing to a distance."""
+"""``height_after(s, i, dt)``: height of ball ``i`` after ``dt``, m; 0 on the cloth: it adds nothing to a distance."""
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""The vertical part of velocities in the contact rule: nothing on tables that do not fly, and not even compiled there."""
+"""The vertical part of velocities in the contact rule: on old tables there is none, and nothing is compiled."""
 
 from physics.kernels import layout as at
 from physics.kernels.compiling import load, small_kernel, store

@@ -114,7 +114,10 @@ def strip_contact(world: RealWorld, strip: Any, flight: Flight) -> mpf | None:
 
 
 def ring_contact(world: RealWorld, horn: Any, flight: Flight) -> mpf | None:
-    """The first fall of (q - r)^2 + zeta^2 through R^2 outside the horn's disc: of A^2 - 4 r^2 q^2, A = q^2 + r^2 + zeta^2 - R^2."""
+    """The first fall of (q - r)^2 + zeta^2 through R^2 outside the horn's disc.
+
+    With A = q^2 + r^2 + zeta^2 - R^2 that is where A^2 - 4 r^2 q^2 falls, and A >= 0.
+    """
     if not flight.comes_near(horn.centre, float(horn.radius + world.radius)):
         return None
     c, b = flight.start - horn.centre, flight.speed
@@ -164,7 +167,9 @@ class Air:
 
     @staticmethod
     def event(time: mpf, ball: Ball, number: int) -> Event:
-        return Event(time, "rail_collision" if number < 4 else "jaw_collision", ball.number, number % 4 if number < 4 else number - 4)
+        if number < 4:
+            return Event(time, "rail_collision", ball.number, number)
+        return Event(time, "jaw_collision", ball.number, number - 4)
 
     def liner(self, hole: Any, flight: Flight) -> mpf | None:
         """When the ball leaves the hole's circle, not back to the shelf, and no higher than the rail's cap."""
@@ -222,7 +227,7 @@ class Air:
         return any(self.is_over_jaw(jaw, place) for jaw in self.rails.jaws)
 
     def is_over_jaw(self, jaw: Any, place: mpc) -> bool:
-        """Behind nose line and facing line, on the mouth's side of the nose's end, and not in what the horn rounds off."""
+        """Behind nose line and facing line, on the mouth's side of the nose's end, not in what the horn rounds off."""
         nose, facing, horn = jaw.nose, jaw.facing, jaw.horn
         if not -self.world.cushion_width <= nose.gap(place) <= 0 or facing.gap(place) > 0:
             return False
@@ -278,5 +283,3 @@ def part_from(world: RealWorld, ball: Ball, one: Edge, share: mpf) -> None:
 
 def stop_at(ball: Ball, one: Edge) -> None:
     push(ball, one.direction, -inner(velocity(ball), one.direction))
-
-

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from itertools import compress
 
 from mpmath import mpc, mpf
-from support.truth.detect import Boundary
 from support.truth.air import Edge, half_towards, stop_at
+from support.truth.detect import Boundary
 from support.truth.flight import is_airborne, keep_down, meet_cloth
 from support.truth.laws import apply_friction, bounce, settle, tangential_impulse
 from support.truth.model import Ball, World, dot, energy

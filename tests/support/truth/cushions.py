@@ -11,6 +11,7 @@ from support.truth.space import Space, cross, inner, plus, size
 
 STEPS = 200
 
+
 def nose_normal(world: RealWorld, inward: mpc) -> Space:
     """From the nose to the centre: down by h - R over R."""
     return inward * world.rho / world.radius, -(world.nose_height - world.radius) / world.radius

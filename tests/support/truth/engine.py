@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, replace
 from mpmath import mp, mpf
 from support.truth.contacts import Cluster, make_cluster, resolve, touching
 from support.truth.detect import Octagon, boundary_of, own_event, pair_contact
-from support.truth.laws import bounce, historical_collision
 from support.truth.flight import fall
+from support.truth.laws import bounce, historical_collision
 from support.truth.model import OUT_OF_PLAY, Ball, Motion, World
 from support.truth.moments import Event
 from support.truth.motion import advance, classify, end_of_motion

@@ -1,4 +1,4 @@
-"""Flight by itself (FLIGHT, 2.1-2.3, 2.8): the impact law of fixed bodies, launch, landing, the rail's top, the fall."""
+"""Flight by itself (FLIGHT, 2.1-2.3, 2.8): the impact law of fixed bodies, launch, landing, rail top, fall."""
 
 from mpmath import mp, mpc, mpf
 from support.truth.model import Ball, RealWorld

@@ -54,7 +54,7 @@ def tangential_impulse(world: World, one: Ball, two: Ball, direction: Space, j_n
 
 
 def apply_friction(world: World, one: Ball, two: Ball, direction: Space, impulse: Space) -> None:
-    """Opposite impulses, spins changed in the same sense; between balls on the cloth it absorbs the vertical velocity."""
+    """Opposite impulses, spins changed in the same sense; on the cloth the vertical velocity is absorbed."""
     one.velocity += impulse[0]
     two.velocity -= impulse[0]
     if in_air(one, two):

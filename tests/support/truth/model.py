@@ -30,7 +30,7 @@ OUT_OF_PLAY = (Motion.POCKETED, Motion.DRIVEN_OFF)
 class Ball:
     """A ball at time ``since``: position m, velocity m/s, angular velocity rad/s as ``w_xy`` (plane) and ``w_z``.
 
-    ``height`` m of the centre above where it rests, ``rise`` m/s upwards; ``pressed``: s, until when a nose holds it down.
+    ``height`` m of the centre above where it rests, ``rise`` m/s upwards; ``pressed`` s: until then a nose holds it.
     """
 
     number: int

@@ -43,7 +43,7 @@ def normal(one: Ball, two: Ball) -> Space:
     return way[0] / size(way), way[1] / size(way)
 
 
-def push(ball: Ball, change: Space, factor: mpf = mpf(1)) -> None:
+def push(ball: Ball, change: Space, factor: float = 1.0) -> None:
     ball.velocity, ball.rise = plus(velocity(ball), change, factor)
 
 
