@@ -153,8 +153,13 @@ def test_the_last_hops_do_not_matter():
 
 @pytest.mark.parametrize(
     ("height", "v_z", "v_x"),
-    [(0.0, -1.220, -2.208), (0.005, -0.444, -2.508), (0.00771525, 0.0, -2.550), (0.012, 0.696, -2.444)]
-    + [(0.020, 1.822, -1.683)],
+    [
+        (0.0, -1.220, -2.208),
+        (0.005, -0.444, -2.508),
+        (0.00771525, 0.0, -2.550),
+        (0.012, 0.696, -2.444),
+        (0.020, 1.822, -1.683),
+    ],
 )
 def test_a_nose_throws_up_or_down_by_the_height_at_which_it_is_met(height, v_z, v_x):
     """FLIGHT Part II, 8: 3 m/s without spin, e 0.85, mu 0.2."""
