@@ -37,7 +37,7 @@ def write(file: File, table: Table, arrays: Arrays) -> None:
 def read(file: File) -> tuple[Table, Arrays]:
     """Read what ``write`` wrote; see ``physics.Result.load``."""
     try:
-        with np.load(file, allow_pickle=False) as saved:
+        with Path(file).open("rb") as source, np.load(source, allow_pickle=False) as saved:
             arrays = dict(saved)
         table = Table.from_dict(json.loads(str(arrays.pop("table"))))
         for name, (kind, shapes) in SHAPES.items():

@@ -62,7 +62,9 @@ def test_a_picture_is_turned_and_never_mirrored():
         view = View(Table.olympiad(), upright)
         (x0, y0), (x1, y1), (x2, y2) = map(view.at, ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))
         assert (x1 - x0) * (y2 - y0) - (y1 - y0) * (x2 - x0) < 0.0, "y grows downwards in a picture"
-    assert View(Table.olympiad()).at((0.5, 2.0))[0] < View(Table.olympiad()).at((0.5, 0.2))[0], "head string on the left"
+    assert View(Table.olympiad()).at((0.5, 2.0))[0] < View(Table.olympiad()).at((0.5, 0.2))[0], (
+        "head string on the left"
+    )
 
 
 @pytest.mark.parametrize("name", ["nine_foot", "seven_foot"])
