@@ -2,7 +2,7 @@
 
 import pytest
 
-from benchmarks import search, search_breaks, search_habits
+from benchmarks import recording, search, search_breaks, search_habits
 from tournament.statistics import score_of_cells
 
 
@@ -84,7 +84,7 @@ def test_versions_that_play_differently_are_kept_apart(monkeypatch):
         line("v0", "x", (0,)),
     ]
     lines.append(line("v1", "search:shots=9,ways=off", (0, 1)))
-    monkeypatch.setattr(search.recording, "lines", lambda name: lines)
+    monkeypatch.setattr(recording, "lines", lambda name: lines)
     tables = search.pool([["v3", "v2"], ["v1"]])
     assert [(row["opponent"], row["agents"], row["pairs"]) for row in tables["matches"]] == [
         ("greedy", "v2 v3", 3),

@@ -11,6 +11,7 @@ from support.players import Potter
 import physics
 from client.local_game import PlayedGame, play_game
 from referee import Action, EightBall, MatchSeed, NoiseModel
+from referee.game import Decision
 
 TOLERANCE = 1e-9
 AT = """async ([table, entry, times]) => {
@@ -32,7 +33,7 @@ def short_game(seed: int, actions: int) -> PlayedGame:
 
         def choose(view):
             left[0] -= 1
-            return Action(decision="concede") if left[0] < 0 else potter(view)
+            return Action(decision=Decision.CONCEDE) if left[0] < 0 else potter(view)
 
         return choose
 

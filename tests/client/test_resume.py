@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 import time
+from typing import Any
 
 import pytest
 
@@ -51,7 +52,7 @@ def test_a_match_goes_on_after_the_server_went_down(mortal, number):
         entries = [organiser.register(f"player {seat}") for seat in (0, 1)]
         agents = (entries[0].agent.id, entries[1].agent.id)
         match = organiser.create_match(MatchRequest(agents=agents, seed="7" * 64))
-        overs = [None, None]
+        overs: list[Any] = [None, None]
 
         def play(seat):
             overs[seat] = run_agent(client.load("random", seed=seat), mortal.url, entries[seat].token)

@@ -38,7 +38,7 @@ def view_of(balls, noise=1.0, seconds=None, **fields):
         noise=NoiseView(told=True, level=noise), dry_visits_limit=24, replays_limit=2, strokes_limit=400,
         commitment="0" * 64,
     )  # fmt: skip
-    clocks = tuple(ClockView(seconds_left=seconds, running=seat == 0) for seat in (0, 1))
+    clocks = (ClockView(seconds_left=seconds, running=True), ClockView(seconds_left=seconds, running=False))
     return View.of(terms, game, seat=0, version=1, clocks=clocks, score=(0.0, 0.0), strokes_since=())
 
 
@@ -263,6 +263,7 @@ def test_its_title_is_a_name_that_servers_allow():
 
 def test_options_reach_the_agent():
     agent = client.load("search:seconds=0.25,ways=off", seed=3)()
+    assert isinstance(agent, SearchAgent)
     assert agent._options == Options(seconds=0.25, ways=False)
 
 

@@ -23,7 +23,7 @@ class Conceding(client.Agent):
 
     def choose(self, view):
         self.seen.append(view)
-        return client.Action(decision="concede")
+        return client.Action(decision=client.Decision.CONCEDE)
 
 
 @pytest.fixture(scope="module")

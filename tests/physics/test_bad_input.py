@@ -35,8 +35,8 @@ CASES: dict[str, tuple[type[PhysicsError], Callable[[], object]]] = {
     "shot, unknown parameter": (InvalidShot, lambda: Shot(1, 2).replace(x=1)),
     "check of a tuple": (InvalidShot, lambda: physics.check(TABLE, STATE, (1, 2, 3, 4, 5))),  # type: ignore[arg-type]
     "state, text": (InvalidState, lambda: TableState.from_positions("abc")),
-    "state, ragged": (InvalidState, lambda: TableState.from_positions([[1.0], [2.0, 3.0]])),  # type: ignore[list-item]
-    "state, no mapping": (InvalidState, lambda: TableState.from_dict(None)),  # type: ignore[arg-type]
+    "state, ragged": (InvalidState, lambda: TableState.from_positions([[1.0], [2.0, 3.0]])),
+    "state, no mapping": (InvalidState, lambda: TableState.from_dict(None)),
     "state, ball 03": (InvalidState, lambda: TableState.from_dict({"03": [0.5, 0.5]})),
     "no cue ball to raise": (InvalidState, lambda: physics.min_elevation(TABLE, STATE.removed(0), 0.0)),
     "contact, text": (PhysicsError, lambda: physics.contact_time("ab", (0, 0), (0, 0), 1.0)),

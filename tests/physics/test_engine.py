@@ -60,7 +60,7 @@ def test_no_two_quantities_share_a_place() -> None:
 
 
 def test_facts_lie_where_kernels_write_them() -> None:
-    offsets = {name: offset // 4 for name, (_, offset) in facts.FACTS_DTYPE.fields.items()}
+    offsets = {name: offset // 4 for name, (_, offset, *_) in facts.FACTS_DTYPE.fields.items()}
     places = {
         "status": layout.F_STATUS,
         "n_events": layout.F_EVENTS,

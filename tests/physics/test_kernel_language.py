@@ -33,12 +33,8 @@ def name_of(path: Path) -> str:
 
 def complaints(source: str, file: str = "") -> list[str]:
     """What a kernel's source says that it may not, by line."""
-    found = []
-    for node in ast.walk(ast.parse(source)):
-        said = forbidden(node, file)
-        if said:
-            found.append(f"{file}:{node.lineno}: {said}")
-    return found
+    nodes = ast.walk(ast.parse(source))
+    return [f"{file}:{getattr(node, 'lineno', 0)}: {said}" for node in nodes if (said := forbidden(node, file))]
 
 
 def forbidden(node: ast.AST, file: str) -> str | None:
@@ -112,7 +108,8 @@ def test_numbers_of_columns_stand_in_the_layout_alone() -> None:
     found = []
     for path in KERNELS:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            call = isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
-            if call and node.func.id.startswith(("load", "store")) and isinstance(node.args[1], ast.Constant):
+            if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name):
+                continue
+            if node.func.id.startswith(("load", "store")) and isinstance(node.args[1], ast.Constant):
                 found.append(f"{name_of(path)}:{node.lineno}: {ast.unparse(node)}")
     assert found == []

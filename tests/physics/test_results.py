@@ -2,6 +2,7 @@
 
 import json
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -184,7 +185,7 @@ def test_a_batch_from_one_state():
 def test_a_batch_can_be_ended_from_outside(threads):
     state = physics.rack(OPEN, "eight_ball", seed=1)
     shots = np.array([[5.0, 200.0 + 0.5 * k, 10.0, 0.0, 0.0] for k in range(300)])
-    asked = []
+    asked: list[Any] = []
     batch = physics.simulate_batch(OPEN, state, shots, threads, check=lambda: asked.append(None))
     assert len(asked) >= 300 / 64
     assert batch.positions.tobytes() == physics.simulate_batch(OPEN, state, shots).positions.tobytes()
@@ -276,9 +277,9 @@ def test_bad_thread_counts(threads):
 
 def test_wrong_kinds_of_arguments():
     with pytest.raises(physics.InvalidShot, match="Shot"):
-        physics.simulate(OPEN, STATE_1, (1.0, 2.0))
+        physics.simulate(OPEN, STATE_1, (1.0, 2.0))  # type: ignore[arg-type]
     with pytest.raises(physics.InvalidState, match="TableState"):
-        physics.simulate(OPEN, {0: (0.5, 1.0)}, physics.Shot(1.0, 2.0))
+        physics.simulate(OPEN, {0: (0.5, 1.0)}, physics.Shot(1.0, 2.0))  # type: ignore[arg-type]
 
 
 def test_chained_shots_always_start_legally():

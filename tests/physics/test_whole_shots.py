@@ -106,7 +106,8 @@ def test_the_historical_table():
 
 def rack_of(gap: float, rows: int = 5):
     """A triangle of balls with its apex towards the cue ball."""
-    balls, step = {}, 2 * RADIUS + gap
+    step = 2 * RADIUS + gap
+    balls: dict[int, tuple[float, float]] = {}
     for row in range(rows):
         for place in range(row + 1):
             balls[len(balls) + 1] = (0.558 + (place - row / 2) * step, 0.559 - row * step * 3**0.5 / 2)

@@ -9,6 +9,7 @@ import signal
 import threading
 import time
 import uuid
+from typing import Any
 
 import httpx2
 import pytest
@@ -107,7 +108,7 @@ class Hands:
 
 def history(table, game, cursor=0):
     """The strokes of a game, all pages."""
-    strokes = []
+    strokes: list[Any] = []
     while cursor is not None:
         path = f"/v1/games/{game}/shots"
         page = insist(lambda path=path, cursor=cursor: table.organiser.get(path, cursor=cursor, limit=200)).json()

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import httpx2
 import psycopg
@@ -241,7 +242,7 @@ def test_the_same_request_at_both_at_once_is_carried_out_once(pair, table_at, br
 
 def test_the_same_match_asked_for_at_both_at_once_is_made_once(pair, table_at):
     table = table_at(pair[0])
-    body = {"agents": [player.id for player in table.players], "games": 3}
+    body: dict[str, Any] = {"agents": [player.id for player in table.players], "games": 3}
     headers = {"Idempotency-Key": "match"}
     with ThreadPoolExecutor(8) as pool:
         answers = list(

@@ -42,7 +42,7 @@ def apart(one: physics.TableState, two: physics.TableState) -> float:
 
 def sensitivity(scene: Scene, table: physics.Table = OPEN) -> float:
     """How far the end moves when v moves by one ulp, up or down (m): what rounding alone can do to this shot."""
-    v, *others = scene.stroke
+    v, phi, theta, a, b = scene.stroke
     end = play(scene, table, trace=False).final
-    nudged = [replace(scene, stroke=(math.nextafter(v, to), *others)) for to in (0.0, 10.0)]
+    nudged = [replace(scene, stroke=(math.nextafter(v, to), phi, theta, a, b)) for to in (0.0, 10.0)]
     return max(apart(end, play(other, table, trace=False).final) for other in nudged)

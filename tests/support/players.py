@@ -2,8 +2,9 @@
 
 import math
 from dataclasses import dataclass, field
+from typing import Literal
 
-from physics import SeededStream, Shot, min_elevation
+from physics import SeededStream, Shot, TableState, min_elevation
 from protocol import View
 from referee.game import Action, Call, Decision
 
@@ -16,7 +17,7 @@ class Potter:
     strength: float = 3.0
     stream: SeededStream = field(init=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self.stream = SeededStream(bytes(32), self.name)
 
     def __call__(self, view: View) -> Action:
@@ -38,7 +39,7 @@ class Potter:
     def _speed(self, view: View) -> float:
         return 9.5 if view.phase == "break" else self.strength * (0.5 + self.stream.uniform())
 
-    def _place(self, view: View):
+    def _place(self, view: View) -> tuple[tuple[float, float], TableState]:
         (west, east), (south, north) = view.cue_ball_area.x, view.cue_ball_area.y
         others = view.state.removed(0)
         while True:
@@ -48,7 +49,7 @@ class Potter:
             if clear and view.table_model().contains(x, y):
                 return (x, y), others.moved(0, (x, y))
 
-    def _aim(self, view: View, state):
+    def _aim(self, view: View, state: TableState) -> tuple[float, Call | Literal["safety"] | None]:
         cue_x, cue_y = state.position(0)
         if view.phase == "break":
             x, y = view.table_model().foot_spot

@@ -76,7 +76,7 @@ def test_an_event_whose_secrets_the_server_draws_is_kept_in_the_same_books(tmp_p
     assert directory.terms()["seed"] is None
     ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
     spec = Terms.from_dict(directory.terms()).spec
-    assert (ledger.event.finished, len(spec.seed), len(spec.lots), spec.foreseeable) == (True, 64, 64, False)
+    assert (ledger.event.finished, len(str(spec.seed)), len(str(spec.lots)), spec.foreseeable) == (True, 64, 64, False)
     assert event_report(ledger.event)["terms"]["foreseeable"] is False
     for result in ledger.event.counted:
         path = directory.path / result.record
@@ -213,7 +213,7 @@ def concede_turn(players):
     for player in players:
         while (message := player.turns(0.0)) is not None:
             if isinstance(message, Turn) and message.view.my_turn:
-                player.play(message.game, message.view.version, client.Action(decision="concede"))
+                player.play(message.game, message.view.version, client.Action(decision=client.Decision.CONCEDE))
                 return
     raise AssertionError("nobody is to play")
 

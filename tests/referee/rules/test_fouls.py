@@ -38,7 +38,7 @@ def from_kitchen(balls: Balls, phi: float, v: float, place: tuple[float, float],
 
 def miscue(game: Game, played_as: Shot, intended: Shot, call: str | None = "safety") -> Played:
     """``intended`` may be played; noise made it ``played_as``."""
-    action = Action(shot=intended, call=call)  # type: ignore[arg-type]
+    action = Action(shot=intended, call=call)
     assert RULES.check(game, action) == ()
     result = physics.simulate(TABLE, game.state, played_as)
     return Played(game, action, result, RULES.apply(game, action, result.facts, result.final))

@@ -129,7 +129,7 @@ def test_lowest_elevation_is_accepted() -> None:
 
 def test_not_an_action() -> None:
     with pytest.raises(InvalidAction, match="action = None"):
-        RULES.check(situation(BALLS), None)  # type: ignore[arg-type]
+        RULES.check(situation(BALLS), None)
 
 
 def test_wrong_kind_of_action() -> None:

@@ -117,4 +117,4 @@ def test_limits_are_configurable() -> None:
 @pytest.mark.parametrize(("field", "value"), [("dry_visits", 0), ("replays", -1), ("strokes", 1.5), ("strokes", True)])
 def test_bad_limits(field: str, value: object) -> None:
     with pytest.raises(InvalidGame, match=field):
-        Limits(**{field: value})  # type: ignore[arg-type]
+        Limits(**{field: value})

@@ -54,7 +54,7 @@ def a_direction(random: Random, game: Game, call: Call | str | None, place: Plac
         return random.uniform(0.0, 360.0)
     ball = tuple(game.state.positions[call.ball].tolist())
     mouth = tuple(TABLE.mouths[call.pocket].tolist())
-    return towards(place, ghost(ball, mouth)) + random.gauss(0.0, 0.2)  # type: ignore[arg-type]
+    return towards(place, ghost(ball, mouth)) + random.gauss(0.0, 0.2)
 
 
 def an_action(random: Random, game: Game) -> Action:
@@ -73,7 +73,7 @@ def an_action(random: Random, game: Game) -> Action:
         if not isnan(theta):
             v = random.uniform(1.0, 10.0) if game.phase is Phase.BREAK else random.uniform(0.5, 5.0)
             shot = Shot(v, phi, min(theta + 0.01, 70.0))
-            return Action(shot=shot, call=call, cue_ball=place)  # type: ignore[arg-type]
+            return Action(shot=shot, call=call, cue_ball=place)
 
 
 def moves(seed: int) -> Iterator[tuple[Game, Action, Ruling, Game]]:
