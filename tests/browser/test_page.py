@@ -165,6 +165,7 @@ def test_colours_are_chosen_and_kept(page, server):
     assert page.evaluate("document.documentElement.dataset.theme") == "dark"
 
 
+@pytest.mark.slow
 def test_the_reference_of_the_interface_is_read_in_a_browser(new_page, server):
     """At /docs, on a phone, under the page's policy; `new_page` sees requests to other hosts and breaches."""
     page = new_page(390)

@@ -430,6 +430,7 @@ def picture(page) -> str:
     return str(page.locator(".table canvas").evaluate("canvas => canvas.toDataURL()"))
 
 
+@pytest.mark.slow
 def test_a_house_bot_accepts_and_plays(new_page, own_server_with_bot):
     """An unrated game, with a seed of each player's in its draw."""
     page = new_page(reduced_motion="reduce")

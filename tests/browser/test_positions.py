@@ -75,6 +75,7 @@ def compare(page, game: PlayedGame, seed: int) -> tuple[int, float]:
     return compared, worst
 
 
+@pytest.mark.slow
 def test_positions_of_fifty_records_are_those_of_the_physics(page, server):
     """Fifty breaks and the strokes after them; every tenth game on the historical table."""
     page.goto(server.url)

@@ -2,6 +2,7 @@
 
 import signal
 
+import pytest
 from support.play_along import Match, next_turn
 
 
@@ -31,6 +32,7 @@ def test_a_tournament_is_followed_from_the_lobby_to_a_game(page, server):
     page.locator(".result", has_text="wins: concession").wait_for()
 
 
+@pytest.mark.slow
 def test_a_tournament_that_is_looked_at_goes_on_before_the_eyes(page, own_server, watched):
     """Seen: opened before its start it never moved, and one look that failed, as in a restart, was the last."""
     watched.forgiven = ("Failed to load resource", "ERR_CONNECTION", "ERR_INCOMPLETE", "ERR_NETWORK", "ERR_EMPTY")

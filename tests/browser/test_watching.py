@@ -5,6 +5,7 @@ import signal
 import uuid
 from pathlib import Path
 
+import pytest
 from support.play_along import act, next_turn, play_on
 
 
@@ -47,6 +48,7 @@ def test_a_live_game_is_watched_to_its_end(page, server):
     assert json.loads(text.splitlines()[0])["game"] == game
 
 
+@pytest.mark.slow
 def test_a_restart_of_the_server_is_survived(page, own_server, watched):
     """Killed, not stopped: the page says so, comes back by itself, and goes on after the last stroke it has."""
     watched.forgiven = ("Failed to load resource", "ERR_CONNECTION", "ERR_INCOMPLETE", "ERR_NETWORK", "ERR_EMPTY")

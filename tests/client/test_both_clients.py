@@ -74,7 +74,9 @@ def test_a_method_says_what_its_call_says(name):
     assert wanted.return_annotation.__origin__ is ApiCall
 
 
-@pytest.mark.parametrize(("program", "wrong"), [(TYPED, 0), (WRONG, 3)], ids=["right", "wrong"])
+@pytest.mark.parametrize(
+    ("program", "wrong"), [pytest.param(TYPED, 0, marks=pytest.mark.slow), (WRONG, 3)], ids=["right", "wrong"]
+)
 def test_a_type_checker_knows_arguments_and_answers(tmp_path: Path, program, wrong):
     require(subprocess.run([sys.executable, "-m", "mypy", "--version"], capture_output=True).returncode == 0, "mypy")
     file = tmp_path / "program.py"

@@ -46,7 +46,9 @@ def mortal(server_installed, tmp_path):
     server.end(signal.SIGKILL)
 
 
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM], ids=["killed", "stopped"])
+@pytest.mark.parametrize(
+    "number", [signal.SIGKILL, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)], ids=["killed", "stopped"]
+)
 def test_a_match_goes_on_after_the_server_went_down(mortal, number):
     with client.Pooliad(mortal.url, ORGANISER) as organiser:
         entries = [organiser.register(f"player {seat}") for seat in (0, 1)]

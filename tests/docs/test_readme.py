@@ -50,6 +50,7 @@ def test_the_curl_block_starts_a_match_and_breaks(server: Embedded, shell, tmp_p
     assert answer["view"]["version"] > 1
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("server")
 def test_the_commands_play_show_verify_and_examine(shell, tmp_path: Path) -> None:
     (block,) = [block for block in bash_blocks(README) if "replay verify" in block]

@@ -184,6 +184,7 @@ def test_the_image_installs_from_the_lock_alone() -> None:
     assert not [rest for rest in installs if "pip wheel" in rest and "--no-build-isolation" not in rest]
 
 
+@pytest.mark.slow
 def test_the_health_check_answers(image: Image, url: str) -> None:
     assert ask(f"{url}/healthz") == {"status": "ok"}
     check = json.loads(only("HEALTHCHECK").partition("CMD ")[2])

@@ -26,11 +26,13 @@ def test_the_wheel_holds_the_packages_and_nothing_else(wheel: Path) -> None:
     assert {"server/web/index.html", "server/web/main.js"} <= page <= names
 
 
+@pytest.mark.slow
 def test_the_base_install_has_everything_but_the_server(without_server) -> None:
     imports = without_server["imports"]
     assert imports.stdout.splitlines() == ["[]", "{True}"], imports.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["serve", "demo"])
 def test_without_the_extra_a_command_names_what_installs_it(without_server, command: str) -> None:
     """At once: nothing is compiled for a demo that cannot be."""
@@ -40,6 +42,7 @@ def test_without_the_extra_a_command_names_what_installs_it(without_server, comm
     assert "pip install 'pooliad[server]'" in line
 
 
+@pytest.mark.slow
 def test_the_base_install_plays_without_a_server(without_server) -> None:
     played = without_server["play"]
     assert played.returncode == 0, played.stderr
@@ -52,6 +55,7 @@ def demo(complete) -> dict:
     return json.loads(complete.must(["pooliad", "demo", "--seed", "4", "--out", "demo-4", "--json"]))
 
 
+@pytest.mark.slow
 def test_a_demo_from_the_wheel_ends_by_the_rules(demo: dict) -> None:
     assert demo["status"] == "finished"
     (game,) = demo["games"]
@@ -59,6 +63,7 @@ def test_a_demo_from_the_wheel_ends_by_the_rules(demo: dict) -> None:
     assert game["rule"] in BY_THE_RULES
 
 
+@pytest.mark.slow
 def test_the_record_verifies_with_nothing_but_the_file(demo: dict, complete, tmp_path: Path) -> None:
     """By a fresh process, the demo's database out of its sight; and not when a digit is changed."""
     (game,) = demo["games"]
@@ -76,6 +81,7 @@ def test_the_record_verifies_with_nothing_but_the_file(demo: dict, complete, tmp
     assert json.loads(done.stdout)["verdict"] == "different"
 
 
+@pytest.mark.slow
 def test_an_agent_of_ones_own_is_found_where_one_stands(complete) -> None:
     """Seen: the documented `--agents straight:Straight` was not found by the installed command, and a folder called
     server beside it was taken for the server.

@@ -116,6 +116,7 @@ def history(table, game, cursor=0):
     return strokes
 
 
+@pytest.mark.slow
 def test_killed_at_every_step_of_a_shot(own_server, table_at, script):
     """One match with a crash at each step in turn is, in the end, the match that is played without any."""
     server = own_server(POOLIAD_FAILPOINT=f"{POINTS[0]}:3")
@@ -144,6 +145,7 @@ def test_killed_at_every_step_of_a_shot(own_server, table_at, script):
     hands.end()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kills", [10, pytest.param(200, marks=pytest.mark.long)])
 def test_killed_at_random_under_load(own_server, table_at, script, kills):
     server = own_server()

@@ -67,6 +67,7 @@ def files(directory):
     return {path.name: path.read_bytes() for path in directory.games.glob("*.json*")}
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("default")
 def test_a_worker_killed_in_the_middle_loses_nothing_and_nothing_is_played_twice(tmp_path, cluster):
     address, workers = cluster

@@ -140,6 +140,7 @@ def check_kills(tmp_path, whole, kills, executor):
     assert list(directory.games.glob("*.part")) == []
 
 
+@pytest.mark.slow
 def test_an_event_killed_at_many_instants_ends_like_one_that_was_not(tmp_path, whole):
     check_kills(tmp_path, whole, 3, "inline")
 
@@ -175,6 +176,7 @@ def test_ctrl_c_leaves_an_event_that_goes_on(tmp_path, whole):
     assert files(directory) == whole[1]
 
 
+@pytest.mark.slow
 def test_a_full_disk_costs_nothing_but_time(tmp_path, whole):
     """A file of limited size stands for a disk without room: a write fails somewhere within a line."""
     directory = begin(tmp_path / "cup")
@@ -331,6 +333,7 @@ def test_a_worker_killed_in_the_middle_costs_nothing(tmp_path, whole):
     assert files(directory) == whole[1]
 
 
+@pytest.mark.slow
 def test_the_sequential_test_is_evaluated_in_the_order_of_pairs(tmp_path):
     """Whatever else was finished by then: the counted games are those up to the decision."""
     sprt = {

@@ -334,6 +334,7 @@ class BrokenOff:
         return getattr(self.seat, name)
 
 
+@pytest.mark.slow
 def test_a_process_goes_on_with_the_budget_it_had_left(tmp_path):
     """Seen: with clocks the new process counts from 0, and was refused until it had simulated as much once more."""
     (tmp_path / "simulating.py").write_text(SIMULATING)

@@ -41,6 +41,7 @@ def game(path):
     return header, entries, record.end["outcome"], record.end["noise_secret"]
 
 
+@pytest.mark.slow
 def test_the_same_terms_and_seed_are_the_same_games_with_and_without_a_server(tmp_path, hall):
     """Ids, times, commitments (they name the match) and signatures differ; everything that was played does not."""
     here, there = begin(tmp_path / "here"), begin(tmp_path / "there")
