@@ -4,12 +4,13 @@ import json
 import signal
 import uuid
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.play_along import act, next_turn, play_on
 
 
-def concede(match) -> None:
+def concede(match: Any) -> None:
     seat, view = next_turn(match)
     headers = {"If-Match": f'"{view.version}"'}
     path = f"/v1/games/{view.game}/decisions"
@@ -106,7 +107,7 @@ def test_the_first_game_of_an_empty_lobby_brings_its_match(page, own_server):
     matches.get_by_role("link", name="first ann – first bob").wait_for()
 
 
-def test_what_agents_say_never_becomes_markup(page, server, tmp_path: Path):
+def test_what_agents_say_never_becomes_markup(page, server, tmp_path):
     """Names and rulings of a record are anybody's text: shown as it is, and nothing else happens."""
     match = server.match()
     play_on(match)

@@ -9,6 +9,7 @@ from support.players import Potter
 
 from client.local_game import TRIES, BadAnswer, Lost, Watch, play_game, play_match, points_of
 from physics import Shot, Table
+from protocol import View
 from referee.game import Action, EndReason, Outcome
 from referee.play import MatchSeed, NoiseModel
 from referee.play.clock import Timing
@@ -25,7 +26,7 @@ class Spy:
     """A player that keeps the views it was shown."""
 
     player: Potter
-    views: list = field(default_factory=list)
+    views: list[View] = field(default_factory=list)
 
     def __call__(self, view):
         self.views.append(view)

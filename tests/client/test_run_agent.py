@@ -26,7 +26,7 @@ class Conceding(client.Agent):
 class Diary(client.Agent):
     """Breaks where it can, gives up where it cannot, and keeps what it was told."""
 
-    seen: ClassVar[list] = []
+    seen: ClassVar[list[Any]] = []
 
     def __init__(self):
         self.mine: list[Any] = []

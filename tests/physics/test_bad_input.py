@@ -59,7 +59,7 @@ CASES: dict[str, tuple[type[PhysicsError], Callable[[], object]]] = {
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_refused_by_name(case: str) -> None:
+def test_refused_by_name(case):
     kind, call = CASES[case]
     with pytest.raises(kind) as caught:
         call()
@@ -69,12 +69,12 @@ def test_refused_by_name(case: str) -> None:
 
 
 @pytest.mark.parametrize("counters", [np.zeros((1, 4), np.int64), np.zeros((5, 2), np.int64), np.zeros((5, 4))])
-def test_counters_of_another_kind_are_refused(counters: Any) -> None:
+def test_counters_of_another_kind_are_refused(counters):
     """Kernels write there without looking: a wrong shape was heap corruption."""
     with pytest.raises(ValueError, match="counters"):
         physics.simulate_batch(TABLE, STATE, np.ones((5, 5)), counters=counters)
 
 
-def test_an_empty_batch_is_a_batch() -> None:
+def test_an_empty_batch_is_a_batch():
     assert len(physics.simulate_batch(TABLE, STATE, np.empty((0, 5)))) == 0
     assert len(physics.simulate_batch(TABLE, np.empty((0, 16, 2)), np.empty((0, 5)))) == 0

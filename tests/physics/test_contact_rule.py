@@ -15,7 +15,7 @@ PARTING = 0.2 * 9.81 * 1e-3
 """m/s; the fastest opening the rule gives: sliding friction on both balls, A tau / 2 = mu_slide g tau."""
 
 
-def triangle(rows: int = 5, apex=(0.558, 0.559)):
+def triangle(rows: int = 5, apex: tuple[float, float] = (0.558, 0.559)) -> dict[int, tuple[float, float]]:
     """Exactly touching, apex towards +y."""
     step = 2 * R
     balls: dict[int, tuple[float, float]] = {}

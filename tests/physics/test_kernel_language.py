@@ -83,7 +83,7 @@ def is_place(node: ast.BinOp | ast.AugAssign) -> bool:
 
 
 @pytest.mark.parametrize("path", KERNELS, ids=name_of)
-def test_a_kernel_says_nothing_that_differs_between_machines(path: Path) -> None:
+def test_a_kernel_says_nothing_that_differs_between_machines(path):
     assert complaints(path.read_text(encoding="utf-8"), name_of(path)) == []
 
 
@@ -95,12 +95,12 @@ def test_a_kernel_says_nothing_that_differs_between_machines(path: Path) -> None
         *("y = x % 2.0", "y = x // z", "y = a @ b", "k = numba.njit(fastmath=True)", "y = math.pow(x, 2.0)"),
     ],
 )
-def test_each_forbidden_operation_is_seen(line: str) -> None:
+def test_each_forbidden_operation_is_seen(line):
     """A rule that sees nothing would pass every kernel."""
     assert complaints(line) != []
 
 
-def test_numbers_of_columns_stand_in_the_layout_alone() -> None:
+def test_numbers_of_columns_stand_in_the_layout_alone():
     """A kernel addresses memory by a name of the layout, a loop's counter or a sum of these: never by a bare number.
 
     Pairs of coordinates (``2 * i + 1``) are the format of positions, not of the layout.

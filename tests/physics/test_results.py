@@ -171,7 +171,7 @@ def test_a_batch_from_one_state():
     batch = physics.simulate_batch(OPEN, state, shots, threads=2)
     assert len(batch) == 5
     assert batch.positions.shape == (5, 16, 2)
-    assert (batch.pocket.dtype, batch.status.dtype) == (np.int8, np.int8)
+    assert batch.pocket.dtype == batch.status.dtype == np.int8
     for k, row in enumerate(shots):
         single = physics.simulate(OPEN, state, physics.Shot(*row))
         assert batch.state(k) == single.final
@@ -260,7 +260,7 @@ def test_bad_states_of_a_batch_name_the_row():
         physics.simulate_batch(OPEN, np.stack([good, good]).astype(np.float32), shots)
 
 
-def test_threads_name_the_first_of_several_bad_rows() -> None:
+def test_threads_name_the_first_of_several_bad_rows():
     states = np.repeat(STATE_1.positions[None], 200, axis=0)
     for row in (37, 120, 199):
         states[row, 4] = (0.0, 0.5)

@@ -37,7 +37,7 @@ def apart(one: physics.TableState, two: physics.TableState) -> float:
     """Largest distance between the places of a ball in two ends (m); infinite if it is in play in one only."""
     if one.balls != two.balls:
         return math.inf
-    return max((math.dist(one.position(ball), two.position(ball)) for ball in one.balls), default=0.0)
+    return max((math.dist(one.positions[ball], two.positions[ball]) for ball in one.balls), default=0.0)
 
 
 def sensitivity(scene: Scene, table: physics.Table = OPEN) -> float:

@@ -200,8 +200,7 @@ def test_what_a_command_does_wrong_is_said(asked, program, words):
 )
 def test_silence_ends_with_the_time(asked, program, words):
     started = time.monotonic()
-    with pytest.raises(AssertionError, match=words):
-        raise AssertionError(asked(program, silence=0.5))
+    assert re.search(words, str(asked(program, silence=0.5)))
     assert time.monotonic() - started < 30
 
 

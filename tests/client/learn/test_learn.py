@@ -68,7 +68,8 @@ def test_every_vector_is_a_legal_action(game, vector):
 @given(st.sampled_from(SCENES), st.integers(0, 1))
 def test_every_observation_is_in_its_space(game, seat):
     seen = observe(RULES.table, game, seat)
-    assert (seen.shape, seen.dtype) == ((OBSERVATION_SIZE,), np.float32)
+    assert seen.shape == (OBSERVATION_SIZE,)
+    assert seen.dtype == np.float32
     assert ((seen >= 0.0) & (seen <= 1.0)).all()
 
 

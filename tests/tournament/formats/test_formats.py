@@ -15,7 +15,7 @@ sizes = st.integers(2, 9)
 seeds = st.integers(0, 2**32)
 
 
-def met(event: Tournament) -> Counter:
+def met(event: Tournament) -> Counter[frozenset[str]]:
     """How often two names met, in meetings."""
     return Counter(frozenset(meeting.players) for meeting in event.meetings)
 

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 from html.parser import HTMLParser
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +25,7 @@ RECORDS = [
 ]
 
 
-def nasty_event(**terms) -> Tournament:
+def nasty_event(**terms: Any) -> Tournament:
     """A finished event of entrants with names that want to be more than text."""
     choose = by_lot(5)
     event = Tournament(Spec("Open <b>&</b> noisy", tuple(Entrant(name) for name in NASTY), **terms))
