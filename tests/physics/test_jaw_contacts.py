@@ -2,7 +2,9 @@
 
 import json
 import math
+from collections.abc import Iterator
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -30,10 +32,12 @@ SHAPES = {"corner": NINE.corner_shape, "side": NINE.side_shape}
 
 def constants(mouth):
     """``jaw`` as the kernels take it."""
-    return JawOutline(mouth.nose_end, mouth.horn_radius, *mouth.facing_start, *mouth.facing_normal, mouth.facing_length)
+    return JawOutline(
+        *(mouth.nose_end, mouth.horn_radius, *mouth.facing_start, *mouth.facing_normal, mouth.facing_length)
+    )
 
 
-def gap(c, b, a, t, distance) -> float:
+def gap(c: Any, b: Any, a: Any, t: Any, distance: Any) -> float:
     """Exact gap at a time, m."""
     t = Fraction(t)
     squared = sum((Fraction(x) + t * (Fraction(y) + t * Fraction(z))) ** 2 for x, y, z in zip(c, b, a, strict=True))
@@ -63,7 +67,7 @@ def test_the_reference_contacts(family):
             assert abs(gap(c, b, a, t, distance)) <= 1e-15, case["id"]
 
 
-def paths(rng: np.random.Generator, shape, n: int):
+def paths(rng: np.random.Generator, shape: Any, n: int) -> Iterator[tuple[float, ...]]:
     """Starts in and before a mouth, clear of its pieces, on curves of sliding and rolling balls."""
     made = 0
     while made < n:
@@ -97,7 +101,7 @@ def test_every_piece_agrees_with_thirty_digits(kind):
     assert met > 50
 
 
-def agree(found: float, true, speed: float) -> None:
+def agree(found: float, true: Any, speed: float) -> None:
     assert (found != found) == (true is None), (found, true)
     if true is not None:
         assert abs(found - float(true)) <= 1e-13 + 1e-14 / max(speed, 1e-3), (found, true)
