@@ -1,9 +1,9 @@
 """Which straight ways into a pocket with jaws end in its hole, at the usual speeds of a rolling ball.
 
-What jaws let in is no straight line: a corner takes a ball that slides along the rail and touches the far facing, a side
-pocket refuses one that comes steeply and touches the near horn, and a fast ball rattles out where a slow one falls. So
-the ways are tried, once for each table: a lone ball is rolled along each, in steps of direction and of offset from the
-hole's centre, and the edges of what falls are halved in. A pocket's mouth is its own mirror image, and all corners are
+What jaws let in is no straight line: a corner takes a ball that slides along the rail and touches the far facing, a
+side pocket refuses one that comes steeply and touches the near horn, and a fast ball rattles out where a slow one
+falls. So the ways are tried, once for each table: a lone ball is rolled along each, in steps of direction and of offset
+from the hole's centre, and the edges of what falls are halved in. A pocket's mouth is its own mirror image, and all corners are
 alike, as both sides are: two halves of a pocket tell everything.
 """
 
@@ -31,7 +31,7 @@ COLUMNS: Final = 61
 """Offsets tried in each direction before the edges are halved ``HALVINGS`` times."""
 HALVINGS: Final = 8
 BACK: Final = 1.0
-"""m before the hole: where ways begin, or as far as the table reaches. None along a rail begins beyond a side pocket."""
+"""m before the hole: where ways begin, or as far as the table reaches. None on a rail begins beyond a side pocket."""
 BEFORE: Final = 0.02
 """m. A shorter way comes through a cushion."""
 RATTLES: Final = 0.6
