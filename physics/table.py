@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Literal, Self, get_args, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from physics import constants
+from physics import constants, notebook
 from physics.errors import InvalidTable
 from physics.pockets import Pocket, straight_pockets
 
@@ -216,6 +216,9 @@ class Table:
         side, end, reach = abs(x - half_x), abs(y - half_y), constants.PLACEMENT_TOLERANCE - self.ball_radius
         inside = side <= half_x + reach and end <= half_y + reach
         return inside and side + end <= half_x + half_y - self.corner_reach + reach
+
+    def _repr_svg_(self) -> str:
+        return notebook.picture(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values by parameter name; ``from_dict`` reads them back."""

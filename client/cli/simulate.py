@@ -1,5 +1,6 @@
 """`pooliad simulate`: what one shot does."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -25,15 +26,20 @@ def simulate(
     ] = None,
     rack: Annotated[int | None, typer.Option(min=0, help="A fresh 8-ball rack from this seed instead.")] = None,
     table: Annotated[str, typer.Option(help=f"{NAMES}, or JSON with parameters.")] = "olympiad",
+    picture: Annotated[
+        Path | None, typer.Option(help="Draw the shot into this file too: .svg, .png or .html, which moves.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Simulate one shot and print its events."""
     import math
     import sys
 
+    from client.cli.drawing import draw
     from client.geometry.aim import looks_like_radians
     from physics import InvalidShot, InvalidState, Shot, check, min_elevation
     from physics import simulate as run
+    from pictures import described
 
     cloth = load_table(table)
     try:
@@ -52,6 +58,8 @@ def simulate(
             f"pooliad: note: --phi is in degrees; {phi:g} rad would be --phi {math.degrees(phi):.6g}", file=sys.stderr
         )
     result = run(cloth, state, shot)
+    if picture is not None:
+        draw(picture, result, shot, None, described(result))
     if as_json:
         emit(_value(shot, result))
     else:
@@ -69,8 +77,6 @@ def _state(table: "Table", balls: str | None, rack: int | None) -> "TableState":
 
 def _read_balls(text: str) -> "TableState":
     """A position from its notation or from JSON, given or in a file."""
-    from pathlib import Path
-
     from client import notation
     from physics import TableState
 
