@@ -3,8 +3,8 @@
 What jaws let in is no straight line: a corner takes a ball that slides along the rail and touches the far facing, a
 side pocket refuses one that comes steeply and touches the near horn, and a fast ball rattles out where a slow one
 falls. So the ways are tried, once for each table: a lone ball is rolled along each, in steps of direction and of offset
-from the hole's centre, and the edges of what falls are halved in. A pocket's mouth is its own mirror image, and all corners are
-alike, as both sides are: two halves of a pocket tell everything.
+from the hole's centre, and the edges of what falls are halved in. A pocket's mouth is its own mirror image, and all
+corners are alike, as both sides are: two halves of a pocket tell everything.
 """
 
 import functools
