@@ -3,10 +3,12 @@
 import math
 from collections.abc import Iterator
 from functools import cached_property
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from physics import archive, notebook
 from physics.constants import EVENT_LIMIT, N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
@@ -58,6 +60,11 @@ class Result:
         self._trace = trace
 
     @cached_property
+    def start(self) -> Snapshot:
+        """All balls before the first event: at rest, or as the snapshot that was resumed had them."""
+        return Snapshot.from_states(0.0, self._start_states().reshape(N_BALLS, -1))
+
+    @cached_property
     def final(self) -> TableState:
         """Where the balls lie afterwards: a legal start for the next shot."""
         return TableState.trusted(self._final.reshape(N_BALLS, 2))
@@ -94,8 +101,9 @@ class Result:
         """
         if not 0.0 <= t <= self.duration:
             raise ValueError(f"t = {t!r}: must be in [0, {self.duration}] s, the duration of the shot")
-        states = self._states(np.array([[t]], dtype=np.float64))
-        return Snapshot.from_states(self.table, t, states.reshape(N_BALLS, -1))
+        states = self._states(np.array([[t]], dtype=np.float64)).reshape(N_BALLS, -1)
+        states[:, PLACE] += (0.5 * self.table.width, 0.5 * self.table.length)
+        return Snapshot.from_states(t, states)
 
     def paths(self, times: ArrayLike) -> tuple[Floats, Floats]:
         """Where all balls are at n times (s), in any order: positions (n, 16, 2) m and heights (n, 16) m.
@@ -122,9 +130,7 @@ class Result:
 
     def _states(self, times: Floats) -> Floats:
         """The kernels' states at ascending ``times`` (1, n), one row each."""
-        rows, start = self._rows(), self._start
-        if start.size == 2 * N_BALLS:
-            start = resting_states(self.table, start.reshape(N_BALLS, 2))
+        rows, start = self._rows(), self._start_states()
         out = np.empty((times.shape[1], N_BALLS * state_width(self.table)))
         find = kernels(self.table.has_jaws).states_at
         find(parameters(self.table), workspace(), start, rows.reshape(1, -1), times, out)
@@ -143,10 +149,51 @@ class Result:
         if int(self.duration / dt) * dt < self.duration:
             yield self.at(self.duration)
 
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values, for JSON: table, status, duration, final positions, and the events if they were kept."""
+        events = {} if self._trace is None else {"events": [event.to_dict() for event in self.events]}
+        return {
+            "table": self.table.to_dict(),
+            "status": self.status.name.lower(),
+            "duration": self.duration,
+            "n_events": self.n_events,
+            "final": self.final.to_dict(),
+        } | events
+
+    def save(self, file: archive.File) -> None:
+        """Write all of it, bit for bit, as a NumPy archive (``.npz``) that ``load`` reads.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        arrays: archive.Arrays = {"start": self._start, "final": self._final, "facts": self._facts}
+        archive.write(file, self.table, arrays if self._trace is None else arrays | {"trace": self._trace})
+
+    @classmethod
+    def load(cls, file: archive.File) -> Self:
+        """Read what ``save`` wrote.
+
+        Raises:
+            OSError: the file cannot be read.
+            ValueError: it is not a saved result.
+        """
+        table, arrays = archive.read(file)
+        trace, n_events = arrays.get("trace"), int(arrays["facts"][0, F_EVENTS])
+        return cls(table, arrays["start"], arrays["final"], arrays["facts"], trace, n_events)
+
+    def _start_states(self) -> Floats:
+        """(1, n): the balls before the first event, in the table's frame."""
+        if self._start.size == 2 * N_BALLS:
+            return resting_states(self.table, self._start.reshape(N_BALLS, 2))
+        return self._start
+
     def _rows(self) -> Floats:
         if self._trace is None:
             raise ValueError("there is no trace: the shot was simulated with trace=False")
         return self._trace
+
+    def _repr_svg_(self) -> str | None:
+        return None if self._trace is None else notebook.picture(self)
 
     def __repr__(self) -> str:
         return f"Result({self.status.name}, {self.n_events} events, {self.duration:.3f} s)"

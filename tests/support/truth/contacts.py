@@ -48,6 +48,11 @@ class Cluster:
         self.landing = {ball.number for ball in self.balls if goes_down(ball)}
         self.classified = {ball.number: movement(ball) for ball in self.balls}
 
+    def most_energy(self) -> mpf:
+        """Set by `limit_from_now` before anything asks."""
+        assert self.allowed is not None
+        return self.allowed
+
     def note(self, kind: str, first: int, second: int) -> None:
         self.acted.append((kind, first, second))
 
@@ -269,7 +274,7 @@ def resolve(cluster: Cluster) -> None:
     limit_from_now(cluster)
     while part_pressed(cluster):
         reclassify(cluster)
-        if not in_air and total_energy(cluster) > 2 * cluster.allowed:
+        if not in_air and total_energy(cluster) > 2 * cluster.most_energy():
             break
         collide(cluster, cushions_only=True)
     limit_energy(cluster, in_air)
@@ -302,7 +307,7 @@ def limit_from_now(cluster: Cluster) -> None:
 
 def limit_energy(cluster: Cluster, in_air: bool) -> None:
     """All velocities and spins times one factor; a cluster that would lose half its energy stops, unless in the air."""
-    before, after = cluster.allowed, total_energy(cluster)
+    before, after = cluster.most_energy(), total_energy(cluster)
     if after <= before:
         return
     factor = mpf(0) if after > 2 * before and not in_air else (before / after) ** mpf("0.5")
