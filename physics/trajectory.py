@@ -138,7 +138,8 @@ class Events(Sequence[Event]):
 
         ``time`` s; ``kind`` text; ``ball``, ``other`` as in ``Event``; then the ball's state after the event: ``x``,
         ``y`` m, ``vx``, ``vy`` m/s, ``wx``, ``wy``, ``wz`` rad/s, ``motion`` text; and that of the other ball of a
-        ball collision by the same names after ``other_``, NaN and empty text where there is none.
+        ball collision by the same names after ``other_``, NaN and empty text where there is none. Where balls fly, with
+        ``height`` m and ``velocity_z`` m/s.
         """
         rows, kinds = self._rows, np.array(KINDS, dtype=str)
         columns: dict[str, NDArray[Any]] = {
@@ -148,7 +149,8 @@ class Events(Sequence[Event]):
             "other": rows[:, at.T_OTHER].astype(int),
         }
         two_balls = columns["kind"] == EventKind.BALL_COLLISION
-        first, second = rows[:, at.T_FIRST : at.T_SECOND], rows[:, at.T_SECOND : at.TRACE_WIDTH]
+        middle = (at.T_FIRST + rows.shape[1]) // 2
+        first, second = rows[:, at.T_FIRST : middle], rows[:, middle:]
         return columns | self._state_columns("", first, True) | self._state_columns("other_", second, two_balls)
 
     def _state_columns(self, prefix: str, states: Floats, known: NDArray[np.bool_] | bool) -> dict[str, NDArray[Any]]:
@@ -159,15 +161,18 @@ class Events(Sequence[Event]):
         motions = np.array([motion.name.lower() for motion in Motion] + [""])
         told = np.where(known, states[:, at.A_MOTION], len(motions) - 1).astype(int)
         columns = dict(zip(names, values.T, strict=True)) | {"motion": motions[told]}
+        if self._flight:
+            vertical = np.where(np.reshape(known, (-1, 1)), states[:, at.A_Z :], np.nan)
+            columns |= {"height": vertical[:, 0], "velocity_z": vertical[:, 1]}
         return {prefix + name: column for name, column in columns.items()}
 
     def _event(self, place: int) -> Event:
         row = self._rows[place].tolist()
         kind, ball, other = KINDS[int(row[at.T_KIND])], int(row[at.T_BALL]), int(row[at.T_OTHER])
-        second = (at.T_FIRST + len(row)) // 2
-        states: tuple[BallState, ...] = (self._state(ball, row[at.T_FIRST : second]),)
+        middle = (at.T_FIRST + len(row)) // 2
+        states: tuple[BallState, ...] = (self._state(ball, row[at.T_FIRST : middle]),)
         if kind is EventKind.BALL_COLLISION:
-            states = (*states, self._state(other, row[second:]))
+            states = (*states, self._state(other, row[middle:]))
         return Event(place, row[at.T_TIME], kind, ball, other, states)
 
     def _state(self, ball: int, values: list[float]) -> BallState:

@@ -191,7 +191,7 @@ def test_every_number_has_a_range(name, limits):
 
 @pytest.mark.parametrize(
     "change",
-    [{"cushion": "fastfiz"}, {"cushion": None}, {"ball": "han"}, {"ball": 1}, {"flight": True}, {"cue_test": 1}],
+    [{"cushion": "fastfiz"}, {"cushion": None}, {"ball": "han"}, {"ball": 1}, {"flight": 1}, {"cue_test": 1}],
     ids=str,
 )
 def test_laws_have_names(change):
