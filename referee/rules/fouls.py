@@ -45,13 +45,13 @@ def no_ball_struck(stroke: StrokeFacts) -> Finding:
 
 
 def no_cushion_after_contact(stroke: StrokeFacts) -> Finding:
-    """R35: no ball at all is pocketed, and after first contact no ball is driven to a cushion."""
+    """R35: no ball at all is pocketed, and after first contact no ball is driven to a cushion or off the table."""
     facts = stroke.facts
     if not stroke.struck or stroke.pocketed or facts.pocketed[CUE_BALL] != NEVER:
         return ()
-    if any(event != NEVER for event in facts.cushion_after_contact):
-        return ()
     contact = min(facts.first_contact[ball] for ball in stroke.struck)
+    if any(event != NEVER for event in facts.cushion_after_contact) or max(facts.off_table) > contact:
+        return ()
     return (Evidence(RuleId.R35, searched=stroke.searched(contact)),)
 
 
