@@ -16,7 +16,7 @@ import math
 from typing import NamedTuple
 
 from physics.kernels.compiling import kernel, small_kernel
-from physics.kernels.detect.contact import contact, first_root, settled_root
+from physics.kernels.detect.contact import DEEPER_ONLY, contact, first_root, settled_root
 from physics.kernels.detect.line import crossing
 from physics.kernels.path import Path, along
 from physics.kernels.tolerances import DEEPER, SLOW_APPROACH, TOUCH
@@ -99,7 +99,9 @@ def deeper_in_horn(from_centre, t, lasts, limit, reach):
     """``meets_horn`` for a path that at ``t`` is at the disc where nose or facing ends: from there on, DEEPER."""
     x, y, vx, vy, hx, hy = from_centre
     here = Path(along(x, vx, hx, t), along(y, vy, hy, t), vx + 2.0 * hx * t, vy + 2.0 * hy * t, hx, hy)
-    return t + settled_root(here, lasts - t, limit - t, reach).time
+    found = settled_root(here, lasts - t, limit - t, reach)
+    # Nearer and nearer from here on: it is met here, unless it was here already.
+    return t if (found.ended == DEEPER_ONLY) & (t > 0.0) else t + found.time
 
 
 @small_kernel
