@@ -77,7 +77,8 @@ class SearchAgent(Agent):
 
     def _break(self, game: Game) -> Action:
         """The studied break."""
-        best, table = breaks.best_break(self._noise), self._rules.table
+        table = self._rules.table
+        best = breaks.best_break(self._noise, table)
         place = best.places(table, game.state)[0]
         return Action(shot=best.stroke(table, game.state.moved(0, place)), cue_ball=place)
 

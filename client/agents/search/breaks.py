@@ -1,9 +1,10 @@
 """The break: found once by a study, not searched for at the table."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from client.geometry import Point, azimuth, is_free, lattice
 from physics import Shot, Table, TableState, min_elevation
+from physics.real_table import SIZES
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,10 +49,22 @@ BEST = {
 }
 """The best break by level of noise: `benchmarks/search_breaks.py`, line `search_breaks-20261122T024040`."""
 
+BEST_BESIDE_JAWS = {
+    0.0: Break(x=0.3475, y=1.983, v=12.0, aim=28.32, a=-11.31, b=3.58),
+    1.0: Break(x=0.2753, y=1.932, v=9.0, aim=26.76, a=-9.81, b=10.0),
+    5.0: Break(x=0.5236, y=1.908, v=9.0, aim=3.04, a=-3.16, b=10.0),
+}
+"""The same on the nine-foot table."""
+
 BREAKING = 0.69
 """What a new rack is worth to the player who breaks it."""
 
 
-def best_break(noise: float) -> Break:
-    """The break studied for the level nearest to this one."""
-    return BEST[min(BEST, key=lambda level: abs(level - noise))]
+def best_break(noise: float, table: Table) -> Break:
+    """The break studied for the level nearest to this one, its place at the same share of the table's size."""
+    studied = BEST_BESIDE_JAWS if table.has_jaws else BEST
+    best = studied[min(studied, key=lambda level: abs(level - noise))]
+    if not table.has_jaws:
+        return best
+    width, length = SIZES["nine_foot"]
+    return replace(best, x=best.x * (table.width / width), y=best.y * (table.length / length))
