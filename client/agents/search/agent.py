@@ -89,8 +89,8 @@ class SearchAgent(Agent):
 
     def _worth_after(self, game: Game, decision: Decision, view: View) -> float:
         if decision is Decision.OPPONENT_RERACKS:
-            return 1.0 - breaks.BREAKING
+            return 1.0 - breaks.worth_of_breaking(self._rules.table)
         ruling = self._rules.apply(game, Action(decision=decision), None, None)
         if ruling.rerack:
-            return breaks.BREAKING
+            return breaks.worth_of_breaking(self._rules.table)
         return self._turn(ruling.game, self._budget(view, len(game.decisions))).best().worth

@@ -50,14 +50,18 @@ BEST = {
 """The best break by level of noise: `benchmarks/search_breaks.py`, line `search_breaks-20261122T024040`."""
 
 BEST_BESIDE_JAWS = {
-    0.0: Break(x=0.3475, y=1.983, v=12.0, aim=28.32, a=-11.31, b=3.58),
-    1.0: Break(x=0.2753, y=1.932, v=9.0, aim=26.76, a=-9.81, b=10.0),
-    5.0: Break(x=0.5236, y=1.908, v=9.0, aim=3.04, a=-3.16, b=10.0),
+    1.0: Break(x=0.541, y=1.9525, v=12.0, aim=-5.33, a=-8.29, b=-0.05),
+    5.0: Break(x=0.4511, y=1.9462, v=11.13, aim=-0.99, a=0.0, b=9.97),
 }
-"""The same on the nine-foot table."""
+"""The same on the nine-foot table: the best of 160, of which the last six were played 400 times."""
 
-BREAKING = 0.69
-"""What a new rack is worth to the player who breaks it."""
+BREAKING, BREAKING_BESIDE_JAWS = 0.69, 0.47
+"""What a new rack is worth to the player who breaks it: jaws let in fewer balls of a break."""
+
+
+def worth_of_breaking(table: Table) -> float:
+    """What a new rack is worth to the player who breaks it."""
+    return BREAKING_BESIDE_JAWS if table.has_jaws else BREAKING
 
 
 def best_break(noise: float, table: Table) -> Break:

@@ -372,7 +372,9 @@ def test_entrants_are_tried_on_the_events_table(tmp_path, monkeypatch):
     (tmp_path / "asking.py").write_text(
         "import client\n\n\nclass Asking(client.Agent):\n"
         "    def game_started(self, view):\n"
-        "        raise RuntimeError('started on ' + view.table_model().name)\n"
+        "        raise RuntimeError('started on ' + view.table_model().name)\n\n"
+        "    def choose(self, view):\n"
+        "        return client.Action(decision='concede')\n"
     )
     monkeypatch.chdir(tmp_path)
     directory = begin(
