@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -26,7 +27,7 @@ def terms(told=True):
         games=3,
         players=("ann", "bob"),
         rules="eight_ball",
-        table="olympiad",
+        table={"name": "olympiad"},
         noise=NoiseView.of(NoiseTerms(level=1.5, told=told)),
         dry_visits_limit=24,
         replays_limit=2,
@@ -36,7 +37,7 @@ def terms(told=True):
 
 
 def view_of(game, **changes):
-    arguments = {"seat": 0, "version": 4, "clocks": CLOCKS, "score": (1.0, 0.5)} | changes
+    arguments: dict[str, Any] = {"seat": 0, "version": 4, "clocks": CLOCKS, "score": (1.0, 0.5)} | changes
     return View.of(terms(), game, **arguments)
 
 
