@@ -69,6 +69,9 @@ ARGUMENTS: dict[str, list[tuple[Any, ...]]] = {
     "simulate": [(*SCENE, SHOT)],
     "simulate_batch": [(*SCENE, [SHOT])],
     "min_elevation": [(*SCENE, 270.0)],
+    "tables": [()],
+    "table": [(ID,)],
+    "describe_table": [(TABLE,)],
 }
 """How each method is called, once for each operation it stands for."""
 

@@ -15,7 +15,7 @@ from support.truth.jaws import JawTruth, first_contact
 
 import physics
 from physics.kernels.detect import jaws
-from physics.kernels.detect.jaws import Jaw
+from physics.kernels.detect.jaws import JawOutline
 from physics.kernels.path import Path
 from physics.kernels.tolerances import DEEPER
 
@@ -32,7 +32,9 @@ SHAPES = {"corner": NINE.corner_shape, "side": NINE.side_shape}
 
 def constants(mouth):
     """``jaw`` as the kernels take it."""
-    return Jaw(*(mouth.nose_end, mouth.horn_radius, *mouth.facing_start, *mouth.facing_normal, mouth.facing_length))
+    return JawOutline(
+        *(mouth.nose_end, mouth.horn_radius, *mouth.facing_start, *mouth.facing_normal, mouth.facing_length)
+    )
 
 
 def gap(c: Any, b: Any, a: Any, t: Any, distance: Any) -> float:
@@ -53,7 +55,7 @@ def test_the_reference_contacts(family):
     for case in cases:
         c, b, a, t_max, distance = case["c"], case["b"], case["a"], case["t_max"], case["distance"]
         if family == "horn_cloth":
-            horn = Jaw(0.0, distance - RHO, 0.0, 0.0, 0.0, 1.0, 0.0)
+            horn = JawOutline(0.0, distance - RHO, 0.0, 0.0, 0.0, 1.0, 0.0)
             t = meets_horn(horn, RHO, Path(c[0], c[1] - (distance - RHO), *b, *a), t_max, t_max)
         else:
             t = drops(Path(*c, *b, *a), distance, t_max, t_max)
