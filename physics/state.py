@@ -7,6 +7,7 @@ from typing import Any, Self, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from physics import notebook
 from physics.constants import BALL_RADIUS, N_BALLS, PLACEMENT_TOLERANCE
 from physics.errors import InvalidState
 from physics.table import Table
@@ -151,6 +152,9 @@ class TableState:
 
     def __repr__(self) -> str:
         return f"TableState.from_positions({ {ball: self.position(ball) for ball in self.balls} })"
+
+    def _repr_svg_(self) -> str:
+        return notebook.picture(self, self._valid_on)
 
     def __reduce__(self) -> tuple[Any, tuple[NDArray[np.float64]]]:
         return TableState.trusted, (self._positions.copy(),)

@@ -1,11 +1,14 @@
 """Strokes and decisions of the past, as answers, views and histories show them."""
 
 from collections.abc import Sequence
-from typing import Any, Self, TypeVar
+from typing import Annotated, Any, Self, TypeVar
+
+from pydantic import Field
+
 
 from protocol.outcomes import EventView, Pocketed, RulingView
 from protocol.shots import ShotParameters, SubmittedAction
-from protocol.values import Balls, Integer, Message, Number, Seat, trusted
+from protocol.values import Balls, Flag, Integer, Message, Number, Seat, trusted
 from referee.play.stroke import Stroke
 
 
@@ -21,6 +24,7 @@ class StrokeView(Message):
         status: how the shot ended, by name (``at_rest``, ``tip_off_ball``, …); null for a decision.
         duration: s; null for a decision.
         pocketed: in order.
+        miscue: the tip slipped off the cue ball, which is no foul of its own; left out where it did not.
         balls: the table after the ruling (balls spotted, racked again).
     """
 
@@ -32,6 +36,7 @@ class StrokeView(Message):
     status: str | None
     duration: Number | None
     pocketed: tuple[Pocketed, ...]
+    miscue: Annotated[Flag, Field(exclude_if=lambda slipped: not slipped)] = False
     ruling: RulingView
     balls: Balls
 
@@ -92,6 +97,7 @@ def _summary(stroke: Stroke, index: int) -> dict[str, Any]:
         "status": None if result is None else result.status.name.lower(),
         "duration": None if result is None else result.duration,
         "pocketed": tuple([trusted(Pocketed, ball=ball, pocket=pocket) for ball, pocket, _ in fallen]),
+        "miscue": result is not None and result.facts.miscue == 1,
         "ruling": RulingView.of(stroke.ruling),
         "balls": stroke.game.state.by_ball(),
     }

@@ -11,7 +11,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstr
 
 from physics.constants import N_BALLS, N_POCKETS
 from physics.errors import InvalidState, InvalidTable
-from physics.table import Table
+from physics.table import NAMED, Table
 
 
 class Message(BaseModel):
@@ -106,15 +106,15 @@ TableValues = Annotated[
             "description": "A table's name, or an object with its name and parameters; those left out have "
             "the named table's value. Answers always carry every parameter.",
             "anyOf": [
-                {"type": "string", "enum": ["olympiad", "fastfiz"]},
+                {"type": "string", "enum": list(NAMED)},
                 {
                     "type": "object",
-                    "properties": {"name": {"type": "string", "enum": ["olympiad", "fastfiz"]}},
+                    "properties": {"name": {"type": "string", "enum": list(NAMED)}},
                     "required": ["name"],
                     "additionalProperties": {"type": ["number", "string", "boolean"]},
                 },
             ],
-            "examples": ["olympiad", {"name": "olympiad", "mu_slide": 0.25}],
+            "examples": ["olympiad", {"name": "olympiad", "mu_slide": 0.25}, "nine_foot"],
         }
     ),
 ]

@@ -9,6 +9,7 @@ from physics.state import TableState
 from physics.table import Table
 from protocol.outcomes import OutcomeView
 from protocol.strokes import StrokeView
+from protocol.tables import contact_distance
 from protocol.terms import BudgetView, ClockView, NoiseView
 from protocol.values import (
     Balls,
@@ -93,6 +94,8 @@ class Allowed(Message):
 class Area(Message):
     """Where the cue ball may be placed: a rectangle for its centre, less the pocket mouths and other balls.
 
+    On a table with jaws the cloth in the mouths belongs to it as well: a ball in the jaws is on the table.
+
     Attributes:
         name: ``kitchen`` (strictly behind the head string) or ``anywhere``.
         x, y: m, least and greatest; in the kitchen the least y itself, the head string, is not allowed.
@@ -105,9 +108,9 @@ class Area(Message):
     @classmethod
     def of(cls, area: CueBallArea, table: Table) -> Self:
         """The rectangle of this area on this table."""
-        radius = table.ball_radius
-        least_y = table.head_string if area is CueBallArea.KITCHEN else radius
-        return trusted(cls, name=area, x=(radius, table.width - radius), y=(least_y, table.length - radius))
+        near = contact_distance(table)
+        least_y = table.head_string if area is CueBallArea.KITCHEN else near
+        return trusted(cls, name=area, x=(near, table.width - near), y=(least_y, table.length - near))
 
 
 class GameTerms(Message):

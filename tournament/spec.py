@@ -107,11 +107,12 @@ _DEFAULT_TIE_BREAKS = {
 def _table(value: Any) -> str | Mapping[str, Any]:
     """A table's name or its parameters; the physics says whether they make a table."""
     from physics import Table
+    from physics.table import NAMED
 
-    if value in ("olympiad", "fastfiz"):
-        return str(value)
+    if isinstance(value, str) and value in NAMED:
+        return value
     if not isinstance(value, Mapping):
-        raise InvalidSpec("", value, "must be olympiad, fastfiz or a table's parameters")
+        raise InvalidSpec("", value, f"must be {', '.join(NAMED)} or a table's parameters")
     return Table.from_dict(value).to_dict()
 
 
@@ -158,7 +159,8 @@ class Spec(Value):
         noise: the levels and whether the players are told.
         seconds: thinking time a player has for a game, 0.001 to 86,400; None: no wall clock.
         simulated_shots: shots a player may simulate in a game; None: any number.
-        table: ``"olympiad"``, ``"fastfiz"`` or a table's parameters as ``physics.Table.to_dict`` gives them.
+        table: a name of ``physics.table.NAMED``, or a table's name and parameters as ``physics.Table.to_dict`` gives
+            them; those left out have the named table's value.
         seed: lots, levels, racks and noise come from it. Left out (None), a server draws 256 bits; without a server the
             event repeats. Chosen, for a test that is to repeat: an integer, or 64 hexadecimal digits.
         sprt: stop as soon as this test decides; for two entrants.

@@ -203,4 +203,5 @@ def _played(stroke: Stroke, events: bool) -> dict[str, Any]:
         "status": Status(result.status).name.lower(),
         "duration": result.duration,
         "final": result.final.to_dict(),
+        **({"miscue": True} if result.facts.miscue else {}),
     }

@@ -1,6 +1,7 @@
 """Everything that can be wrong with an action before it is played: refusals, never fouls."""
 
 from physics.cue import check as check_cue
+from physics.errors import InvalidShot
 from physics.state import TableState
 from physics.table import Table
 from referee.game import EIGHT, SAFETY, Action, Call, Decision, Game, Phase, Refusal, RuleId, callable_balls
@@ -56,6 +57,11 @@ def refuse_call(game: Game, action: Action) -> tuple[Refusal, ...]:
 def refuse_stroke(table: Table, game: Game, action: Action) -> tuple[Refusal, ...]:
     """R39: an intended stroke that cannot be played is refused; only noise makes a miscue."""
     assert action.shot is not None
+    try:
+        action.shot.refuse_beyond(table)
+    except InvalidShot as beyond:
+        allowed = beyond.allowed.removeprefix("must be ")
+        return (Refusal(RuleId.R39, f"shot.{beyond.field}", beyond.value, allowed),)
     unplayable = check_cue(table, start_state(game, action), action.shot)
     if unplayable is None:
         return ()

@@ -2,10 +2,11 @@
 
 import pytest
 
-from benchmarks import search, search_breaks, search_habits
+from benchmarks import recording, search, search_breaks, search_habits
 from tournament.statistics import score_of_cells
 
 
+@pytest.mark.slow
 def test_a_pair_is_two_games_on_the_same_racks():
     row = search.play_pair(("search:shots=300", "random"), 1.0, 3)
     mine, theirs = row["of_player"], row["of_opponent"]
@@ -53,6 +54,7 @@ def test_scores_are_as_sure_as_in_tournaments(points, cells):
     assert told[:3] == pytest.approx(meant[:3], abs=1e-4)
 
 
+@pytest.mark.slow
 def test_a_study_of_breaks_finds_one_that_goes_on():
     best, *others = search_breaks.study(1.0, ((6, 10), (2, 20)))
     assert best["worth"] >= max(other["worth"] for other in others)
@@ -84,7 +86,7 @@ def test_versions_that_play_differently_are_kept_apart(monkeypatch):
         line("v0", "x", (0,)),
     ]
     lines.append(line("v1", "search:shots=9,ways=off", (0, 1)))
-    monkeypatch.setattr(search.recording, "lines", lambda name: lines)
+    monkeypatch.setattr(recording, "lines", lambda name: lines)
     tables = search.pool([["v3", "v2"], ["v1"]])
     assert [(row["opponent"], row["agents"], row["pairs"]) for row in tables["matches"]] == [
         ("greedy", "v2 v3", 3),

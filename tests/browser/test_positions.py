@@ -3,14 +3,16 @@
 import json
 import math
 import random
-from pathlib import Path
+from typing import Any
 
 import pytest
+from playwright.sync_api import Page
 from support.players import Potter
 
 import physics
 from client.local_game import PlayedGame, play_game
 from referee import Action, EightBall, MatchSeed, NoiseModel
+from referee.game import Decision
 
 TOLERANCE = 1e-9
 AT = """async ([table, entry, times]) => {
@@ -32,7 +34,7 @@ def short_game(seed: int, actions: int) -> PlayedGame:
 
         def choose(view):
             left[0] -= 1
-            return Action(decision="concede") if left[0] < 0 else potter(view)
+            return Action(decision=Decision.CONCEDE) if left[0] < 0 else potter(view)
 
         return choose
 
@@ -41,7 +43,7 @@ def short_game(seed: int, actions: int) -> PlayedGame:
     return play_game(EightBall(table), chairs, MatchSeed.of(seed).game(0), NoiseModel(1.0), players=("ann 3", "bob 3"))
 
 
-def times_of(stroke, chance: random.Random) -> list[float]:
+def times_of(stroke: Any, chance: random.Random) -> list[float]:
     """The ends, moments at random, and events: their times and halfway to the next."""
     duration, events = stroke.result.duration, stroke.result.events
     if len(events) < 2:  # a miscue: nothing has moved
@@ -52,7 +54,7 @@ def times_of(stroke, chance: random.Random) -> list[float]:
     return [0.0, duration, *chosen, *between, *(chance.uniform(0.0, duration) for _ in range(4))]
 
 
-def compare(page, game: PlayedGame, seed: int) -> tuple[int, float]:
+def compare(page: Page, game: PlayedGame, seed: int) -> tuple[int, float]:
     """How many positions were compared, and the largest distance (m)."""
     chance, compared, worst = random.Random(seed), 0, 0.0
     header, *lines = [json.loads(line) for line in game.record()]
@@ -74,6 +76,7 @@ def compare(page, game: PlayedGame, seed: int) -> tuple[int, float]:
     return compared, worst
 
 
+@pytest.mark.slow
 def test_positions_of_fifty_records_are_those_of_the_physics(page, server):
     """Fifty breaks and the strokes after them; every tenth game on the historical table."""
     page.goto(server.url)
@@ -92,7 +95,7 @@ def test_positions_of_whole_games_are_those_of_the_physics(page, server):
     assert worst < TOLERANCE
 
 
-def test_a_record_file_replays_without_the_server(page, own_server, watched, tmp_path: Path):
+def test_a_record_file_replays_without_the_server(page, own_server, watched, tmp_path):
     """Chosen from the disk, scrubbed with the slider, stepped by event; the server is gone meanwhile."""
     watched.forgiven = ("Failed to load resource", "ERR_CONNECTION")
     game = short_game(3, 4)
@@ -120,7 +123,7 @@ def test_a_record_file_replays_without_the_server(page, own_server, watched, tmp
     page.locator(".row[aria-current]", has_text="ann 3").wait_for()
 
 
-def test_a_file_that_is_no_record_is_said_to_be_none(page, server, tmp_path: Path):
+def test_a_file_that_is_no_record_is_said_to_be_none(page, server, tmp_path):
     for content in ("", "{}", "not json", '{"type":"game"}', "[1,2]"):
         file = tmp_path / "bad.jsonl"
         file.write_text(content)

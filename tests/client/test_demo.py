@@ -86,6 +86,7 @@ def test_a_changed_record_does_not_verify(finished, tmp_path):
     assert verdict["difference"]["field"] == "duration"
 
 
+@pytest.mark.slow
 def test_the_seed_repeats_the_match(finished, tmp_path):
     account, _ = finished
     again = json.loads(run("demo", *AGENTS, "--seed", 7, "--out", tmp_path / "again", "--json").stdout)
@@ -113,6 +114,7 @@ def test_nothing_is_left_running_after_it(finished):
     assert processes_of(out) == []
 
 
+@pytest.mark.slow
 def test_progress_is_a_sentence_a_stroke(tmp_path):
     done = run("demo", "--seed", 8, "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
@@ -123,7 +125,10 @@ def test_progress_is_a_sentence_a_stroke(tmp_path):
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks for processes in /proc")
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize(
+    "number",
+    [*(pytest.param(each, marks=pytest.mark.slow) for each in (signal.SIGTERM, signal.SIGINT)), signal.SIGKILL],
+)
 def test_stopped_in_the_middle_it_takes_everything_with_it(tmp_path, number):
     out = tmp_path / "out"
     command = [*COMMAND, "demo", "--games", "50", "--seed", "9", "--out", str(out)]

@@ -2,7 +2,9 @@
 
 import json
 import math
+from collections.abc import Iterator
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +15,7 @@ from support.truth.jaws import JawTruth, first_contact
 
 import physics
 from physics.kernels.detect import jaws
-from physics.kernels.detect.jaws import Jaw
+from physics.kernels.detect.jaws import JawOutline
 from physics.kernels.path import Path
 from physics.kernels.tolerances import DEEPER
 
@@ -30,10 +32,12 @@ SHAPES = {"corner": NINE.corner_shape, "side": NINE.side_shape}
 
 def constants(mouth):
     """``jaw`` as the kernels take it."""
-    return Jaw(mouth.nose_end, mouth.horn_radius, *mouth.facing_start, *mouth.facing_normal, mouth.facing_length)
+    return JawOutline(
+        *(mouth.nose_end, mouth.horn_radius, *mouth.facing_start, *mouth.facing_normal, mouth.facing_length)
+    )
 
 
-def gap(c, b, a, t, distance) -> float:
+def gap(c: Any, b: Any, a: Any, t: Any, distance: Any) -> float:
     """Exact gap at a time, m."""
     t = Fraction(t)
     squared = sum((Fraction(x) + t * (Fraction(y) + t * Fraction(z))) ** 2 for x, y, z in zip(c, b, a, strict=True))
@@ -51,7 +55,7 @@ def test_the_reference_contacts(family):
     for case in cases:
         c, b, a, t_max, distance = case["c"], case["b"], case["a"], case["t_max"], case["distance"]
         if family == "horn_cloth":
-            horn = Jaw(0.0, distance - RHO, 0.0, 0.0, 0.0, 1.0, 0.0)
+            horn = JawOutline(0.0, distance - RHO, 0.0, 0.0, 0.0, 1.0, 0.0)
             t = meets_horn(horn, RHO, Path(c[0], c[1] - (distance - RHO), *b, *a), t_max, t_max)
         else:
             t = drops(Path(*c, *b, *a), distance, t_max, t_max)
@@ -63,7 +67,7 @@ def test_the_reference_contacts(family):
             assert abs(gap(c, b, a, t, distance)) <= 1e-15, case["id"]
 
 
-def paths(rng: np.random.Generator, shape, n: int):
+def paths(rng: np.random.Generator, shape: Any, n: int) -> Iterator[tuple[float, ...]]:
     """Starts in and before a mouth, clear of its pieces, on curves of sliding and rolling balls."""
     made = 0
     while made < n:
@@ -97,7 +101,7 @@ def test_every_piece_agrees_with_thirty_digits(kind):
     assert met > 50
 
 
-def agree(found: float, true, speed: float) -> None:
+def agree(found: float, true: Any, speed: float) -> None:
     assert (found != found) == (true is None), (found, true)
     if true is not None:
         assert abs(found - float(true)) <= 1e-13 + 1e-14 / max(speed, 1e-3), (found, true)

@@ -4,6 +4,7 @@ import copy
 import json
 import pickle
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from pydantic import TypeAdapter
@@ -29,7 +30,7 @@ def terms(told=True):
         games=3,
         players=("ann", "bob"),
         rules="eight_ball",
-        table="olympiad",
+        table={"name": "olympiad"},
         noise=NoiseView.of(NoiseTerms(level=1.5, told=told)),
         dry_visits_limit=24,
         replays_limit=2,
@@ -39,7 +40,7 @@ def terms(told=True):
 
 
 def view_of(game, **changes):
-    arguments = {"seat": 0, "version": 4, "clocks": CLOCKS, "score": (1.0, 0.5)} | changes
+    arguments: dict[str, Any] = {"seat": 0, "version": 4, "clocks": CLOCKS, "score": (1.0, 0.5)} | changes
     return View.of(terms(), game, **arguments)
 
 

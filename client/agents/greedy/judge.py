@@ -10,7 +10,6 @@ from client.agents.greedy.planned_action import PlannedAction
 from client.agents.greedy.worth import worth, worths_of
 from client.simulator import Simulator
 from physics import Batch
-from physics.constants import THETA_MAX, V_MAX
 from physics.shot import FIELDS
 from referee import Action, Call, CueBallArea, EightBall, Game, Phase
 from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
@@ -88,8 +87,8 @@ class Judge:
     def _disturbed(self, shots: NDArray[np.float64]) -> NDArray[np.float64]:
         """The shots with noise as the game adds it: speed and elevation clamped to their range."""
         noisy = shots + self._spread * self._chance.standard_normal(shots.shape)
-        noisy[:, 0] = np.clip(noisy[:, 0], 0.0, V_MAX)
-        noisy[:, 2] = np.clip(noisy[:, 2], 0.0, THETA_MAX)
+        noisy[:, 0] = np.clip(noisy[:, 0], 0.0, self._rules.table.v_max)
+        noisy[:, 2] = np.clip(noisy[:, 2], 0.0, self._rules.table.theta_max)
         return noisy
 
 

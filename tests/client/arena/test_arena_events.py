@@ -9,11 +9,12 @@ import sys
 import time
 from concurrent.futures import Future
 from concurrent.futures.process import BrokenProcessPool
+from typing import Any
 
 import pytest
 
 from client.arena.directory import EventDirectory, EventError
-from client.arena.executors import InProcess, pool_of
+from client.arena.executors import InProcess, Processes, pool_of
 from client.arena.runner import Runner
 from client.arena.tasks import PairDone
 from client.arena.terms import Terms
@@ -62,7 +63,7 @@ class Forfeiting(InProcess):
     """A pool in which the second player never comes."""
 
     def submit(self, task):
-        future = Future()
+        future: Future[PairDone] = Future()
         results = tuple(forfeit(game.due, game.due.pair.players[1]) for game in task.games)
         future.set_result(PairDone(results, (), ()))
         return future
@@ -139,6 +140,7 @@ def check_kills(tmp_path, whole, kills, executor):
     assert list(directory.games.glob("*.part")) == []
 
 
+@pytest.mark.slow
 def test_an_event_killed_at_many_instants_ends_like_one_that_was_not(tmp_path, whole):
     check_kills(tmp_path, whole, 3, "inline")
 
@@ -174,6 +176,7 @@ def test_ctrl_c_leaves_an_event_that_goes_on(tmp_path, whole):
     assert files(directory) == whole[1]
 
 
+@pytest.mark.slow
 def test_a_full_disk_costs_nothing_but_time(tmp_path, whole):
     """A file of limited size stands for a disk without room: a write fails somewhere within a line."""
     directory = begin(tmp_path / "cup")
@@ -258,7 +261,7 @@ def test_an_aborted_event_is_over_for_good(tmp_path):
 def test_who_is_disqualified_forfeits_what_was_begun_and_is_paired_no_more(tmp_path):
     """The first pair stands; the second one is on the board by then, the rest of the event not."""
     directory = begin(tmp_path / "cup", pairs=2)
-    played = []
+    played: list[Any] = []
 
     def decide(ledger, _running):
         if ledger.event.counted and not played:
@@ -299,7 +302,7 @@ class Dying(InProcess):
         if task.pair != self.pair or self.times == 0:
             return super().submit(task)
         self.times -= 1
-        future = Future()
+        future: Future[PairDone] = Future()
         future.set_exception(BrokenProcessPool("a worker died"))
         return future
 
@@ -316,7 +319,8 @@ def test_a_pair_whose_worker_died_is_played_by_another(tmp_path, whole):
 def test_a_worker_killed_in_the_middle_costs_nothing(tmp_path, whole):
     directory = begin(tmp_path / "cup")
     with pool_of("processes", 2) as pool:
-        killed = []
+        assert isinstance(pool, Processes)
+        killed: list[int] = []
 
         def kill_one(_ledger, running):
             if running and not killed and activity(directory):
@@ -329,6 +333,7 @@ def test_a_worker_killed_in_the_middle_costs_nothing(tmp_path, whole):
     assert files(directory) == whole[1]
 
 
+@pytest.mark.slow
 def test_the_sequential_test_is_evaluated_in_the_order_of_pairs(tmp_path):
     """Whatever else was finished by then: the counted games are those up to the decision."""
     sprt = {
