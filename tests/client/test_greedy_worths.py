@@ -1,6 +1,7 @@
 """What `greedy` reads from arrays of verdicts is what it would read from the referee's rulings."""
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -38,7 +39,7 @@ def test_worths_of_verdicts_are_those_of_rulings(name):
     ball = chance.choice(RULES.legal(game).callable, count)
     pocket = chance.integers(0, 6, count)
     safe = chance.random(count) < 0.1
-    calls = [
+    calls: list[Call | Literal["safety"]] = [
         "safety" if none else Call(int(one), int(into)) for one, into, none in zip(ball, pocket, safe, strict=True)
     ]
     batch = simulate_batch(RULES.table, game.state, shots)
