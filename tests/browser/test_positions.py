@@ -109,7 +109,7 @@ def test_positions_of_games_with_jaws_are_those_of_the_physics(page, server, kin
         kinds = [event.kind for stroke in game.strokes if stroke.result for event in stroke.result.events]
         jaws, fallen = (
             jaws + kinds.count(physics.EventKind.JAW_COLLISION),
-            fallen + kinds.count(EventKind.POCKET_COLLISION),
+            fallen + kinds.count(physics.EventKind.POCKET_COLLISION),
         )
     assert compared > 8_000
     assert jaws > 20

@@ -151,8 +151,8 @@ def test_a_copy_with_other_balls_has_another_state():
 
 def test_what_nobody_reads_is_not_made():
     """A driver may give what makes the strokes; asking for the balls does not ask for them."""
-    asked = []
-    view = view_of(BREAK, strokes_since=lambda: [*map(asked.append, "x")] and ())
+    asked: list[int] = []
+    view = view_of(BREAK, strokes_since=lambda: [*map(asked.append, (1,))] and ())
     assert view.balls
     assert view.allowed.actions
     assert view.state == BREAK.state
