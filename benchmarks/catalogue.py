@@ -3,6 +3,8 @@
 BENCHMARKS = {
     "speed": "kernel time per event against a square root and a division; calls, traces, threads, imports",
     "against": "these kernels beside those of version 0.1.0 in one run: bits, instructions, time, compile time",
+    "real_tables": "the nine-foot table beside the Olympiad's: time and instructions without mouths, and with jaws",
+    "acceptance": "what corner and side pockets accept, by speed and approach, beside expected figures",
     "stress": "hostile random shots by class: does every one end, inside the table, without overlap?",
     "constants": "what each constant of the contact rule changes when it is ten times larger or smaller",
     "error_vs_time": "run time against error: this engine, time stepping, scipy's solve_ivp",

@@ -31,7 +31,7 @@ COLUMNS: Final = 61
 """Offsets tried in each direction before the edges are halved ``HALVINGS`` times."""
 HALVINGS: Final = 8
 BACK: Final = 1.0
-"""m before the hole: where ways begin, or as far as the table reaches. None on a rail begins beyond a side pocket."""
+"""m before the hole: where ways begin, or as far as the table reaches; along a rail, not beyond a side pocket."""
 BEFORE: Final = 0.02
 """m. A shorter way comes through a cushion."""
 RATTLES: Final = 0.6

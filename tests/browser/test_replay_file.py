@@ -7,6 +7,7 @@ import pytest
 
 import pictures
 from physics import Shot, Table, rack, simulate
+from pictures.view import View
 
 CHOOSE = """time => {
   const slider = document.getElementById("time");
@@ -37,7 +38,7 @@ def test_a_replay_plays_from_a_file(scenes, browser, tmp_path):
     assert page.title() == "A <game>"
     assert page.inner_text("#caption") == "1 of 2: the break"
     result = scenes[0].result
-    view = pictures.picture.View(result.table)
+    view = View(result.table)
     for time in (0.0, 0.37, 1.0):
         page.evaluate(CHOOSE, time)
         places = result.at(time).positions

@@ -4,7 +4,7 @@ import json
 import re
 
 import pytest
-from typer.testing import CliRunner
+from typer.testing import CliRunner, Result
 
 from client import play
 from client.cli import application
@@ -12,7 +12,7 @@ from client.cli import application
 SHOT = ["simulate", "--v", "3", "--phi", "262", "--balls", "0:0.5,1.7 3:0.4,0.6"]
 
 
-def run(*arguments: str):
+def run(*arguments: str) -> Result:
     return CliRunner().invoke(application(), list(arguments))
 
 

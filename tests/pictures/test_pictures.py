@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import pictures
-from physics import RealTable, Shot, Table, TableState, min_elevation, rack, simulate, simulate_batch
+from physics import RealTable, Result, Shot, Table, TableState, min_elevation, rack, simulate, simulate_batch
 from physics.constants import BALL_RADIUS, N_BALLS
 from pictures.theme import BALLS, ink_of
 from pictures.tracks import tracks
@@ -20,7 +20,7 @@ TABLES = [Table.olympiad(), Table.nine_foot(), Table.seven_foot()]
 BREAK = Shot(9.0, 268.5, 4.0, 1.0, 3.0)
 
 
-def broken(table: Table, seed: int = 3):
+def broken(table: Table, seed: int = 3) -> Result:
     return simulate(table, rack(table, seed=seed), BREAK)
 
 

@@ -3,6 +3,7 @@
 import json
 import math
 import signal
+from typing import Any
 
 import pytest
 
@@ -18,7 +19,7 @@ FIELDS_OF_0_1_0 = [
     *("mu_slide", "mu_roll", "mu_spin", "mu_ball", "e_ball", "cushion_parallel", "cushion_perpendicular"),
     *("cushion_spin", "v_max", "theta_max", "rack_gap", "collisions", "cue_test"),
 ]
-BREAK = {
+BREAK: dict[str, Any] = {
     "shot": {"v": 11.0, "phi": 270.0, "theta": 10.0, "a": 0.0, "b": 0.0},
     "call": None,
     "cue_ball": [0.635, 2.1],
@@ -54,7 +55,7 @@ def test_noses_horns_and_facings_are_one_line_from_pocket_to_pocket(name):
     table = physics.Table.named(name)
     told = TableDescription.of(table)
     lines = {0: (0, 0.0), 1: (0, table.width), 2: (1, 0.0), 3: (1, table.length)}
-    ends = []
+    ends: list[Any] = []
     for nose in told.noses:
         axis, line = lines[nose.cushion]
         assert [end[axis] for end in nose.ends] == pytest.approx([line, line], abs=1e-15)
@@ -117,7 +118,7 @@ def test_a_table_that_cannot_be_is_refused_by_field_value_and_what_is_allowed(
     server, new_player, organiser, path, change, field, words
 ):
     table = {"name": "nine_foot"} | change
-    more = {
+    more: dict[str, Any] = {
         "/v1/tables": {},
         "/v1/simulate": {"balls": BALLS, "shot": SHOT},
         "/v1/matches": {"agents": [new_player().id, new_player().id]},
@@ -241,7 +242,7 @@ def test_a_match_knows_its_table_by_name_and_by_parameters(new_table, name):
     assert own.match["table"] == physics.Table.named(name).replace(mu_slide=0.25, cushion="mathavan").to_dict()
     _, view = plain.mover()
     assert view["table"] == plain.match["table"]
-    near = physics.Table.named(name).contact_distance
+    near = physics.RealTable.of_size(name).contact_distance
     assert view["cue_ball_area"]["x"] == [near, plain.match["table"]["width"] - near]
 
 
