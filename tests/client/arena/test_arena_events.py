@@ -9,7 +9,7 @@ import sys
 import time
 from concurrent.futures import Future
 from concurrent.futures.process import BrokenProcessPool
-from typing import Any, cast
+from typing import Any
 
 import pytest
 
@@ -355,7 +355,7 @@ def test_the_sequential_test_is_evaluated_in_the_order_of_pairs(tmp_path):
 def test_an_event_on_a_table_with_jaws(tmp_path):
     """By name and parameters: the file's terms, the games, their records and a second run of the same event agree."""
     table = {"name": "nine_foot", "cushion": "mathavan", "corner_mouth": 0.12}
-    values = {"entrants": cast("list[Any]", CUP["entrants"])[:2], "table": table}
+    values = {"entrants": ["random", {"name": "other", "agent": "random"}], "table": table}
     ledger = run(first := begin(tmp_path / "one", **values))
     assert ledger.event.finished
     expected = Table.nine_foot().replace(cushion="mathavan", corner_mouth=0.12)
