@@ -3,6 +3,8 @@
 BENCHMARKS = {
     "speed": "kernel time per event against a square root and a division; calls, traces, threads, imports",
     "against": "these kernels beside those of version 0.1.0 in one run: bits, instructions, time, compile time",
+    "real_tables": "the nine-foot table beside the Olympiad's: time and instructions without mouths, and with jaws",
+    "acceptance": "what corner and side pockets accept, by speed and approach, beside expected figures",
     "stress": "hostile random shots by class: does every one end, inside the table, without overlap?",
     "constants": "what each constant of the contact rule changes when it is ten times larger or smaller",
     "error_vs_time": "run time against error: this engine, time stepping, scipy's solve_ivp",
@@ -24,6 +26,7 @@ BENCHMARKS = {
     "saturation": "times of strokes while one client keeps the batch endpoint busy, and while none does",
     "costly_strokes": "times of strokes while 16 clients play strokes of 20,000 events, and while none does",
     "page": "the page with 30 live games: the browser's processor time and its longest frame",
+    "openings": "what pockets with jaws let in, and how much of it the geometry promises",
     "search_breaks": "the study behind the break of `search`: random breaks, halved again and again",
     "tournaments": "events of in-process agents: games per second, in one process and with one and two workers",
     "load": "shots a second over HTTP with 1, 10, 100 and 500 games at once, next to a bare endpoint",

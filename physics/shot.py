@@ -48,6 +48,8 @@ class Shot:
 
     def refuse_beyond(self, table: Table) -> None:
         """Raise InvalidShot, naming field and range, if ``v`` or ``theta`` is not in the table's range."""
+        if 0.0 <= self.v <= table.v_max and 0.0 <= self.theta <= table.theta_max:
+            return
         for name, most, unit in (("v", table.v_max, "m/s"), ("theta", table.theta_max, "deg")):
             if not 0.0 <= getattr(self, name) <= most:
                 raise InvalidShot(name, getattr(self, name), f"must be a number from 0 to {most:g} {unit}")

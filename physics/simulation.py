@@ -227,8 +227,9 @@ def _run(table: Table, states: Floats, stroke: Floats, trace: bool, event_limit:
     if trace and n_events > rows:
         events = np.empty((1, n_events * TRACE_WIDTH))
         entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
-    kept = events.reshape(-1, TRACE_WIDTH)[:n_events].copy() if trace else None  # and not the room that was not needed
-    return Result(table, states, final, facts, kept, n_events)
+    if trace:  # cut where it lies: a copy would cost more than the call
+        events.resize((n_events, TRACE_WIDTH), refcheck=False)
+    return Result(table, states, final, facts, events if trace else None, n_events)
 
 
 def checked_positions(table: Table, state: TableState) -> Floats:
