@@ -19,6 +19,7 @@ BENCHMARKS = {
     "value_bound": "how much of who wins a position any value function could explain",
     "luck": "the luck report: is the corrected score unbiased, and how much variance does it save?",
     "learning": "the learning environments: steps a second, one game at a time and many at once",
+    "beside": "local play, events and environments beside those of an earlier commit in one run",
     "agents": "the shipped greedy against random: games won, called balls made, seconds a stroke",
     "search": "the shipped search in pairs of games against greedy and against itself without its parts",
     "search_habits": "what typically happens in games of search: the constants behind its values",
