@@ -5,7 +5,6 @@ from typing import Annotated, Any, Self, TypeVar
 
 from pydantic import Field
 
-
 from protocol.outcomes import EventView, Pocketed, RulingView
 from protocol.shots import ShotParameters, SubmittedAction
 from protocol.values import Balls, Flag, Integer, Message, Number, Seat, trusted
