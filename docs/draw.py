@@ -1,4 +1,4 @@
-"""The pictures of these documents: `python docs/draw.py` writes them anew; a test compares them with what it would write."""
+"""The pictures of these documents: `python docs/draw.py` writes them anew; a test compares."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -67,7 +67,7 @@ def test_games_are_the_referees_bit_for_bit(table, start, level, rounds):
     for _ in range(rounds):
         games.begin(np.flatnonzero(games.over), chance)
         rows = np.arange(count)
-        before = [games.game(row) for row in rows]
+        before = [games.game(row) for row in rows.tolist()]
         for seat in (0, 1):
             found = games.observed(rows, np.full(count, seat))
             np.testing.assert_array_equal(found, [observe(rules.table, game, seat) for game in before])
@@ -115,7 +115,7 @@ def test_every_decision_is_the_referees(choice):
         vectors[:, -1] = np.linspace(-1.0, 1.0, 40)
         games.begin(rows, chance)
         games.play(rows, vectors, chance)
-        for row in rows:
+        for row in rows.tolist():
             expected, after = by_referee(rules, game, vectors[row], noise, np.zeros(5)), games.game(row)
             if expected.phase is Phase.RERACK:
                 after = replace(after, state=expected.state, phase=Phase.RERACK, cue_ball_in_hand=None, rack=game.rack)
