@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
+from client import notebook
 from client.agent import AgentFactory
 from client.agents.registry import Player, factory_of, titles
 from client.errors import AgentFailed, AgentUnstartable
@@ -36,6 +37,12 @@ class LocalMatch:
     games: tuple[PlayedGame, ...]
     score: tuple[float, float]
     seed: int
+
+    def __repr__(self) -> str:
+        return f"<LocalMatch {notebook.match_line(self)}>"
+
+    def _repr_html_(self) -> str:
+        return notebook.replay_of(self.games, notebook.match_line(self))
 
     @property
     def winner(self) -> str | None:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
+from client import notebook
 from protocol import BudgetView, ClockView, GameTerms, NoiseView, StrokeView, View
 from protocol.strokes import since_own_last
 from protocol.values import trusted
@@ -95,6 +96,12 @@ class PlayedGame:
     def _counted(self) -> tuple[int, int] | None:
         """What the record tells of simulated shots: nothing where no budget counts them."""
         return None if self.header.budget is None else self.simulated
+
+    def __repr__(self) -> str:
+        return f"<PlayedGame {notebook.line_of(self)}>"
+
+    def _repr_html_(self) -> str:
+        return notebook.replay_of([self], notebook.line_of(self))
 
     def record(self) -> Iterator[str]:
         """The record, line by line."""

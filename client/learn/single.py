@@ -1,17 +1,21 @@
 """One player against an opponent, as a Gymnasium environment."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Final
 
 import gymnasium
 import numpy as np
 from gymnasium.spaces import Box
 
+import pictures
 from client import notation
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector
 from client.learn.games import OneGame, referee_of
 from physics import Table
 from referee import Game, NoiseModel
+
+FRAME_WIDTH: Final = 640
+"""Pixels of a rendered picture."""
 
 Policy = Callable[[Vector], Vector]
 """From an observation to an action, as `observe` and `act` have them."""
@@ -25,10 +29,11 @@ class EightBallEnv(gymnasium.Env[Vector, Vector]):
 
     Args:
         opponent: a policy; draws its actions at random unless given.
-        noise, table, start, render_mode: as for `EightBallAEC`.
+        noise, table, start: as for `EightBallAEC`.
+        render_mode: `ansi`, or `rgb_array`, which needs the extra `pictures` and is what `RecordVideo` takes.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["ansi"], "render_fps": 1}  # noqa: RUF012
+    metadata: dict[str, Any] = {"render_modes": ["ansi", "rgb_array"], "render_fps": 1}  # noqa: RUF012
 
     def __init__(
         self,
@@ -38,8 +43,8 @@ class EightBallEnv(gymnasium.Env[Vector, Vector]):
         start: Game | None = None,
         render_mode: str | None = None,
     ) -> None:
-        if render_mode not in (None, "ansi"):
-            raise ValueError(f"render_mode is {render_mode!r}; it must be 'ansi' or None")
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise ValueError(f"render_mode = {render_mode!r}: must be 'ansi', 'rgb_array' or None")
         self._rules, self._noise = referee_of(table), NoiseModel(noise)
         self._start = None if start is None else self._rules.begin_from(start)
         self._opponent = opponent
@@ -65,9 +70,14 @@ class EightBallEnv(gymnasium.Env[Vector, Vector]):
         seen, reward = self._games.observed(self._seat), self._games.reward(self._seat)
         return seen, reward, self._games.is_over, False, self._info()
 
-    def render(self) -> str | None:
-        """The position in one line, in mode `ansi`."""
-        return notation.write(self._games.game().state) if self.render_mode == "ansi" else None
+    def render(self) -> Any:
+        """The position: in one line in mode `ansi`, as pixels (h, w, 3) uint8 in mode `rgb_array`."""
+        if self.render_mode is None:
+            return None
+        state = self._games.game().state
+        if self.render_mode == "ansi":
+            return notation.write(state)
+        return pictures.pixels(state, table=self._rules.table, width=FRAME_WIDTH)
 
     def _opponent_plays(self) -> None:
         """Until it is the learner's turn, or the game is over."""
