@@ -5,6 +5,7 @@ COPY locks locks
 RUN pip install --require-hashes -r locks/build.txt
 COPY pyproject.toml README.md LICENSE ./
 COPY physics physics
+COPY pictures pictures
 COPY referee referee
 COPY tournament tournament
 COPY protocol protocol

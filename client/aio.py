@@ -91,6 +91,9 @@ class AsyncPooliad:
     simulate = _sent(calls.simulate)
     simulate_batch = _sent(calls.simulate_batch)
     min_elevation = _sent(calls.min_elevation)
+    tables = _sent(calls.tables)
+    table = _sent(calls.table)
+    describe_table = _sent(calls.describe_table)
 
     async def _send(self, call: ApiCall[Answer]) -> Answer:
         """Drive the exchange without blocking the event loop."""

@@ -258,6 +258,22 @@ def min_elevation(
     return ApiCall("POST", "/v1/min-elevation", _reader(wire.MinElevationAnswer), body=_json(request), pure=True)
 
 
+def tables() -> ApiCall[wire.TableList]:
+    """The named tables, each with its parameters and its lines and arcs (m)."""
+    return ApiCall("GET", "/v1/tables", _reader(wire.TableList))
+
+
+def table(name: str) -> ApiCall[wire.TableDescription]:
+    """A named table, likewise."""
+    return ApiCall("GET", f"/v1/tables/{name}", _reader(wire.TableDescription))
+
+
+def describe_table(table: Table) -> ApiCall[wire.TableDescription]:
+    """A table with parameters of its own, likewise."""
+    body = _json(wire.DescribeRequest(table=table.to_dict()))
+    return ApiCall("POST", "/v1/tables", _reader(wire.TableDescription), body=body, pure=True)
+
+
 def _scene(table: Table, state: TableState) -> dict[str, Any]:
     """The table and the balls, as the physics endpoints take them."""
     return {"table": table.to_dict(), "balls": state.to_dict()}

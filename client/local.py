@@ -66,7 +66,7 @@ def play(
         games: how many, 1 to 1000; the break alternates.
         seed: repeats racks, first breaker, noise and the choices of shipped agents; drawn unless given.
         noise: level, 0 to 5; 1 is the Olympiad's.
-        table: the Olympiad's unless given.
+        table: any `physics.Table`; the Olympiad's unless given.
         simulations: shots that each agent may simulate in a game with its `simulator`; any number unless given.
         start: where every game begins instead of a break, e.g. `view.to_game()`; the seats are exchanged in
             every second game.

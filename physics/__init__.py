@@ -9,6 +9,7 @@ Importing this package compiles nothing and loads no compiler: kernels load at t
 from physics.batch import Batch, simulate_batch
 from physics.contact import contact_time
 from physics.cue import Unplayable, check, min_elevation
+from physics.cue_ball import squirt
 from physics.errors import InvalidShot, InvalidState, InvalidTable, PhysicsError
 from physics.events import BallState, Event, EventKind, Motion
 from physics.facts import FACTS_DTYPE, Facts
@@ -54,4 +55,5 @@ __all__ = [
     "resume",
     "simulate",
     "simulate_batch",
+    "squirt",
 ]

@@ -3,15 +3,17 @@
 import math
 from collections.abc import Iterator
 from functools import cached_property
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from physics import archive, notebook
 from physics.constants import EVENT_LIMIT, N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
-from physics.facts import FACTS_DTYPE, FACTS_WORDS, Facts
-from physics.kernels.layout import F_EVENTS, N_COUNTERS, SHOT_WIDTH, STATE_WIDTH, TRACE_WIDTH
+from physics.facts import FACTS_WORDS, Facts
+from physics.kernels.layout import A_VX, A_X, F_EVENTS, N_COUNTERS, SHOT_WIDTH, STATE_WIDTH, TRACE_WIDTH
 from physics.parameters import parameters
 from physics.shot import Shot
 from physics.state import TableState
@@ -37,7 +39,7 @@ class Result:
         n_events: number of events, the cue strike included.
     """
 
-    __slots__ = ("__dict__", "_facts", "_final", "_start", "_trace", "n_events", "table")
+    __slots__ = ("__dict__", "_facts", "_final", "_read", "_start", "_state", "_trace", "n_events", "table")
 
     def __init__(
         self,
@@ -54,11 +56,20 @@ class Result:
         self._final = final
         self._facts = facts
         self._trace = trace
+        self._state: TableState | None = None
+        self._read: Facts | None = None
 
     @cached_property
+    def start(self) -> Snapshot:
+        """All balls before the first event: at rest, or as the snapshot that was resumed had them."""
+        return Snapshot.from_states(0.0, self._start_states().reshape(N_BALLS, STATE_WIDTH))
+
+    @property
     def final(self) -> TableState:
         """Where the balls lie afterwards: a legal start for the next shot."""
-        return TableState.trusted(self._final.reshape(N_BALLS, 2))
+        if self._state is None:
+            self._state = TableState.trusted(self._final.reshape(N_BALLS, 2))
+        return self._state
 
     @property
     def duration(self) -> float:
@@ -70,10 +81,12 @@ class Result:
         """How the shot ended."""
         return Status(self.facts.status)
 
-    @cached_property
+    @property
     def facts(self) -> Facts:
         """What rules need to know."""
-        return Facts.from_record(self._facts.view(FACTS_DTYPE)[0, 0])
+        if self._read is None:
+            self._read = Facts.from_words(self._facts[0])
+        return self._read
 
     @cached_property
     def events(self) -> Events:
@@ -94,11 +107,12 @@ class Result:
             raise ValueError(f"t = {t!r}: must be in [0, {self.duration}] s, the duration of the shot")
         rows = self._rows()
         out = np.empty((1, N_BALLS * STATE_WIDTH))
-        start = resting_states(self._start.reshape(N_BALLS, 2)) if self._start.size == 2 * N_BALLS else self._start
         kernels(self.table.has_jaws).state_at(
-            parameters(self.table), workspace(), start, rows.reshape(1, -1), float(t), out
+            parameters(self.table), workspace(), self._start_states(), rows.reshape(1, -1), float(t), out
         )
-        return Snapshot.from_states(self.table, t, out.reshape(N_BALLS, STATE_WIDTH))
+        states = out.reshape(N_BALLS, STATE_WIDTH)
+        states[:, A_X:A_VX] += (0.5 * self.table.width, 0.5 * self.table.length)
+        return Snapshot.from_states(t, states)
 
     def sample(self, dt: float) -> Iterator[Snapshot]:
         """Snapshots every ``dt`` seconds, the first at 0 and the last at the end.
@@ -113,10 +127,49 @@ class Result:
         if int(self.duration / dt) * dt < self.duration:
             yield self.at(self.duration)
 
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values, for JSON: table, status, duration, final positions, and the events if they were kept."""
+        events = {} if self._trace is None else {"events": [event.to_dict() for event in self.events]}
+        return {
+            "table": self.table.to_dict(),
+            "status": self.status.name.lower(),
+            "duration": self.duration,
+            "n_events": self.n_events,
+            "final": self.final.to_dict(),
+        } | events
+
+    def save(self, file: archive.File) -> None:
+        """Write all of it, bit for bit, as a NumPy archive (``.npz``) that ``load`` reads.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        arrays: archive.Arrays = {"start": self._start, "final": self._final, "facts": self._facts}
+        archive.write(file, self.table, arrays if self._trace is None else arrays | {"trace": self._trace})
+
+    @classmethod
+    def load(cls, file: archive.File) -> Self:
+        """Read what ``save`` wrote.
+
+        Raises:
+            OSError: the file cannot be read.
+            ValueError: it is not a saved result.
+        """
+        table, arrays = archive.read(file)
+        trace, n_events = arrays.get("trace"), int(arrays["facts"][0, F_EVENTS])
+        return cls(table, arrays["start"], arrays["final"], arrays["facts"], trace, n_events)
+
+    def _start_states(self) -> Floats:
+        """(1, 128): the balls before the first event, in the table's frame."""
+        return resting_states(self._start.reshape(N_BALLS, 2)) if self._start.size == 2 * N_BALLS else self._start
+
     def _rows(self) -> Floats:
         if self._trace is None:
             raise ValueError("there is no trace: the shot was simulated with trace=False")
         return self._trace
+
+    def _repr_svg_(self) -> str | None:
+        return None if self._trace is None else notebook.picture(self)
 
     def __repr__(self) -> str:
         return f"Result({self.status.name}, {self.n_events} events, {self.duration:.3f} s)"

@@ -11,14 +11,17 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import Any, ClassVar, Literal, Self, get_args, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, get_args, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from physics import constants
+from physics import constants, notebook
 from physics.errors import InvalidTable
 from physics.pockets import Pocket, straight_pockets
+
+if TYPE_CHECKING:
+    from physics.real_table import RealTable
 
 Collisions = Literal["consistent", "fastfiz"]
 """Named sets of collision laws; ``docs/physics.md`` gives each with its source."""
@@ -99,19 +102,19 @@ class Table:
         return Table("fastfiz", collisions="fastfiz", cue_test=False)
 
     @classmethod
-    def nine_foot(cls) -> "Table":
+    def nine_foot(cls) -> "RealTable":
         """A nine-foot pool table, 2.54 m by 1.27 m, with jaws: see ``physics.real_table.RealTable``."""
-        return cls.named("nine_foot")
+        return _real_table("nine_foot")
 
     @classmethod
-    def eight_foot(cls) -> "Table":
+    def eight_foot(cls) -> "RealTable":
         """An eight-foot pool table, 92 in by 46 in (2.3368 m by 1.1684 m), with the pockets of the nine-foot one."""
-        return cls.named("eight_foot")
+        return _real_table("eight_foot")
 
     @classmethod
-    def seven_foot(cls) -> "Table":
+    def seven_foot(cls) -> "RealTable":
         """A seven-foot pool table, 78 in by 39 in (1.9812 m by 0.9906 m), with the pockets of the nine-foot one."""
-        return cls.named("seven_foot")
+        return _real_table("seven_foot")
 
     @classmethod
     def named(cls, name: str) -> "Table":
@@ -217,6 +220,9 @@ class Table:
         inside = side <= half_x + reach and end <= half_y + reach
         return inside and side + end <= half_x + half_y - self.corner_reach + reach
 
+    def _repr_svg_(self) -> str:
+        return notebook.picture(self)
+
     def to_dict(self) -> dict[str, Any]:
         """Plain values by parameter name; ``from_dict`` reads them back."""
         return dataclasses.asdict(self)
@@ -267,6 +273,12 @@ def _check_parameter(name: str, value: Any, *, mu_slide: Any) -> None:
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if not is_number or not low <= value <= high:
         raise InvalidTable(name, value, f"must be a number in [{low}, {high}]")
+
+
+def _real_table(name: str) -> "RealTable":
+    from physics.real_table import RealTable  # which is a kind of Table
+
+    return RealTable.of_size(name)
 
 
 NAMED.update(olympiad=Table.olympiad, fastfiz=Table.fastfiz)

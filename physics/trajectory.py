@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Sequence
-from typing import Self, overload
+from typing import Any, Self, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from physics.state import TableState
 from physics.table import Table
 
 Floats = NDArray[np.float64]
+_KIND_VALUES = tuple([kind.value for kind in KINDS])
+_MOTION_VALUES = tuple([motion.name.lower() for motion in Motion])
+"""Kinds and motion states as JSON has them, by number."""
 
 PLACE, VELOCITY, SPIN = slice(at.A_X, at.A_VX), slice(at.A_VX, at.A_WX), slice(at.A_WX, at.A_MOTION)
 """Columns of a ball's state."""
@@ -38,12 +41,11 @@ class Snapshot:
     motion: NDArray[np.int8]
 
     @classmethod
-    def from_states(cls, table: Table, time: float, states: Floats) -> Self:
-        """From (16, STATE_WIDTH) rows x y vx vy wx wy wz motion, positions from the table's centre."""
+    def from_states(cls, time: float, states: Floats) -> Self:
+        """From (16, STATE_WIDTH) rows x y vx vy wx wy wz motion, positions in the table's frame."""
         motion = states[:, at.A_MOTION].astype(np.int8)
-        away = np.isin(motion, OFF_TABLE)
-        positions = states[:, PLACE] + (0.5 * table.width, 0.5 * table.length)
-        positions[away] = np.nan
+        positions = states[:, PLACE].copy()
+        positions[np.isin(motion, OFF_TABLE)] = np.nan
         return cls(time, positions, states[:, VELOCITY].copy(), states[:, SPIN].copy(), motion)
 
     def refuse_impossible(self, table: Table) -> None:
@@ -116,6 +118,62 @@ class Events(Sequence[Event]):
         """
         wanted = KINDS.index(EventKind(kind))
         return [self._event(place) for place in np.flatnonzero(self._rows[:, 1] == wanted).tolist()]
+
+    def to_dicts(self) -> list[dict[str, Any]]:
+        """What ``Event.to_dict`` gives for each, without the ``Event`` objects."""
+        return [self._values(place, row) for place, row in enumerate(self._rows.tolist())]
+
+    def _values(self, place: int, row: list[float]) -> dict[str, Any]:
+        kind, ball, other = int(row[at.T_KIND]), int(row[at.T_BALL]), int(row[at.T_OTHER])
+        states = [self._ball_values(ball, row, at.T_FIRST)]
+        if kind == at.BALL_COLLISION:
+            states.append(self._ball_values(other, row, at.T_SECOND))
+        return {
+            "index": place,
+            "time": row[at.T_TIME],
+            "kind": _KIND_VALUES[kind],
+            "ball": ball,
+            "other": other,
+            "states": states,
+        }
+
+    def _ball_values(self, ball: int, row: list[float], first: int) -> dict[str, Any]:
+        x, y, vx, vy, wx, wy, wz, motion = row[first : first + at.STATE_WIDTH]
+        return {
+            "ball": ball,
+            "position": [x + self._offset[0], y + self._offset[1]],
+            "velocity": [vx, vy],
+            "spin": [wx, wy, wz],
+            "motion": _MOTION_VALUES[int(motion)],
+        }
+
+    def to_arrays(self) -> dict[str, NDArray[Any]]:
+        """The events as columns of one length, such as ``pandas.DataFrame`` or ``polars.DataFrame`` take.
+
+        ``time`` s; ``kind`` text; ``ball``, ``other`` as in ``Event``; then the ball's state after the event: ``x``,
+        ``y`` m, ``vx``, ``vy`` m/s, ``wx``, ``wy``, ``wz`` rad/s, ``motion`` text; and that of the other ball of a
+        ball collision by the same names after ``other_``, NaN and empty text where there is none.
+        """
+        rows, kinds = self._rows, np.array(KINDS, dtype=str)
+        columns: dict[str, NDArray[Any]] = {
+            "time": rows[:, at.T_TIME].copy(),
+            "kind": kinds[rows[:, at.T_KIND].astype(int)],
+            "ball": rows[:, at.T_BALL].astype(int),
+            "other": rows[:, at.T_OTHER].astype(int),
+        }
+        two_balls = columns["kind"] == EventKind.BALL_COLLISION
+        first, second = rows[:, at.T_FIRST : at.T_SECOND], rows[:, at.T_SECOND : at.TRACE_WIDTH]
+        return columns | self._state_columns("", first, True) | self._state_columns("other_", second, two_balls)
+
+    def _state_columns(self, prefix: str, states: Floats, known: NDArray[np.bool_] | bool) -> dict[str, NDArray[Any]]:
+        """Columns of the states of one ball an event, where they are ``known``."""
+        names = ("x", "y", "vx", "vy", "wx", "wy", "wz")
+        values = np.where(np.reshape(known, (-1, 1)), states[:, : len(names)], np.nan)
+        values[:, :2] += self._offset
+        motions = np.array([motion.name.lower() for motion in Motion] + [""])
+        told = np.where(known, states[:, at.A_MOTION], len(motions) - 1).astype(int)
+        columns = dict(zip(names, values.T, strict=True)) | {"motion": motions[told]}
+        return {prefix + name: column for name, column in columns.items()}
 
     def _event(self, place: int) -> Event:
         row = self._rows[place].tolist()

@@ -44,6 +44,7 @@ from protocol.shots import (
 )
 from protocol.streams import ManyEvent, StreamClocks, StreamConnections, StreamResult, of_many
 from protocol.strokes import StrokeDetail, StrokeView
+from protocol.tables import DescribeRequest, JawView, NoseView, PocketView, TableDescription, TableList
 from protocol.terms import BudgetView, ClockTerms, ClockView, NoiseTerms, NoiseView
 from protocol.tokens import InvitationRequest, Invitations, TokenList, TokenRequest, TokenSecret, TokenView
 from protocol.tournaments import (
@@ -88,6 +89,7 @@ __all__ = [
     "ClockTerms",
     "ClockView",
     "DecisionRequest",
+    "DescribeRequest",
     "DisqualifyRequest",
     "EntriesPage",
     "EntryView",
@@ -101,6 +103,7 @@ __all__ = [
     "GameTerms",
     "InvitationRequest",
     "Invitations",
+    "JawView",
     "KeyList",
     "KeyView",
     "ManyEvent",
@@ -113,8 +116,10 @@ __all__ = [
     "MinElevationRequest",
     "NoiseTerms",
     "NoiseView",
+    "NoseView",
     "NumberedEntry",
     "OutcomeView",
+    "PocketView",
     "Pocketed",
     "Position",
     "Problem",
@@ -140,6 +145,8 @@ __all__ = [
     "StrokeDetail",
     "StrokeView",
     "SubmittedAction",
+    "TableDescription",
+    "TableList",
     "TokenList",
     "TokenRequest",
     "TokenSecret",

@@ -1,12 +1,18 @@
 """The physics alone, for any language: simulate, simulate a batch, least elevation."""
 
-from typing import Annotated
+from functools import cached_property
+from typing import (
+    Annotated,
+    NotRequired,  # pydantic wants these below Python 3.12
+    Self,
+)
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Field, model_validator
 from pydantic.config import JsonDict
-from typing_extensions import TypedDict  # pydantic wants this one below Python 3.12
+from typing_extensions import TypedDict
 
 from physics.constants import N_BALLS
+from physics.table import Table
 from protocol.outcomes import EventView
 from protocol.shots import ShotParameters
 from protocol.values import Balls, Flag, Identifier, Integer, Message, Number, Request, TableValues
@@ -24,7 +30,18 @@ GameOfCaller = Annotated[
 ]
 
 
-class SimulateRequest(Request):
+class Scene(Request):
+    """What every question to the physics is about: a table and, unless each shot has its own, the balls on it."""
+
+    table: Annotated[TableValues, Field(validate_default=True)] = "olympiad"  # type: ignore[assignment]
+
+    @cached_property
+    def table_model(self) -> Table:
+        """The table, as the physics takes it."""
+        return Table.from_dict(self.table)
+
+
+class SimulateRequest(Scene):
     """``POST /v1/simulate``: one shot.
 
     Attributes:
@@ -35,11 +52,15 @@ class SimulateRequest(Request):
         json_schema_extra={"examples": [{"table": "olympiad", "balls": _BALLS, "shot": _SHOT, "trace": True}]}
     )
 
-    table: Annotated[TableValues, Field(validate_default=True)] = "olympiad"  # type: ignore[assignment]
     balls: Balls
     shot: ShotParameters
     trace: Flag = True
     game: GameOfCaller = None
+
+    @model_validator(mode="after")
+    def _shot_is_in_range(self) -> Self:
+        self.shot.refuse_beyond(self.table_model, "shot")
+        return self
 
 
 Ordinal = Annotated[Integer, Field(description="An event's `index`; -1 when it did not happen.")]
@@ -60,6 +81,7 @@ class FactsView(TypedDict):
         pocketed: the event by which each ball went down. pocket: which pocket, 0 to 5, or -1.
         off_table: the event by which the ball left the table.
         frozen_to_cushion, frozen_to_cue_ball: 1 where the ball touched a cushion, the cue ball, at the start; else 0.
+        miscue: 1 if the tip slipped off the cue ball, else 0; only of tables with jaws, whose cue has an end mass.
         first_contact_cue_ball: (x, y) m, the cue ball's centre at first contact; nulls if there was none.
     """
 
@@ -75,6 +97,7 @@ class FactsView(TypedDict):
     off_table: PerBall
     frozen_to_cushion: PerBall
     frozen_to_cue_ball: PerBall
+    miscue: NotRequired[Integer]
     duration: Number
     first_contact_cue_ball: tuple[Number | None, Number | None]
 
@@ -99,7 +122,7 @@ class SimulateAnswer(Message):
     events: tuple[EventView, ...] | None
 
 
-class BatchRequest(Request):
+class BatchRequest(Scene):
     """``POST /v1/simulate/batch``: many shots at one table, or each at its own.
 
     Attributes:
@@ -117,11 +140,16 @@ class BatchRequest(Request):
         }
     )
 
-    table: Annotated[TableValues, Field(validate_default=True)] = "olympiad"  # type: ignore[assignment]
     balls: Balls | None = None
     tables: Annotated[tuple[Balls, ...], Field(max_length=BATCH_LIMIT)] | None = None
     shots: Annotated[tuple[ShotParameters, ...], Field(min_length=1, max_length=BATCH_LIMIT)]
     game: GameOfCaller = None
+
+    @model_validator(mode="after")
+    def _shots_are_in_range(self) -> Self:
+        for index, shot in enumerate(self.shots):
+            shot.refuse_beyond(self.table_model, f"shots.{index}")
+        return self
 
 
 class BatchRow(Message):
@@ -145,14 +173,13 @@ class BatchAnswer(Message):
     results: tuple[BatchRow, ...]
 
 
-class MinElevationRequest(Request):
+class MinElevationRequest(Scene):
     """``POST /v1/min-elevation``: the least elevation of the cue at which a shot can be played."""
 
     model_config = ConfigDict(
         json_schema_extra={"examples": [{"table": "olympiad", "balls": _BALLS, "phi": 260.0, "a": 0.0, "b": 3.0}]}
     )
 
-    table: Annotated[TableValues, Field(validate_default=True)] = "olympiad"  # type: ignore[assignment]
     balls: Balls
     phi: Number
     a: Number = 0.0

@@ -5,24 +5,28 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, ConfigDict, Field, ValidatorFunctionWrapHandler, WrapValidator
 
-from physics.constants import THETA_MAX, V_MAX
+from physics.errors import InvalidShot
 from physics.pocket_names import POCKET_NUMBERS
 from physics.shot import Shot
+from physics.table import Table
 from protocol.terms import SIMULATIONS_MAX
-from protocol.values import Integer, Message, Number, ObjectBall, PocketNumber, Point, Request
+from protocol.values import Integer, Message, Number, ObjectBall, PocketNumber, Point, Request, trusted
 from referee.game import Action, Call, Decision
 
 
 class ShotParameters(Request):
-    """The five parameters of a shot in Olympiad units. All of them are required."""
+    """The five parameters of a shot in Olympiad units. All of them are required.
+
+    Any finite numbers can be written; those beyond its table's ranges are refused where the table is known.
+    """
 
     model_config = ConfigDict(
         json_schema_extra={"examples": [{"v": 3.0, "phi": 270.0, "theta": 5.0, "a": 0.0, "b": 4.0}]}
     )
 
-    v: Annotated[Number, Field(ge=0, le=V_MAX, description="Cue speed, m/s.")]
+    v: Annotated[Number, Field(description="Cue speed, m/s, from 0 to the table's `v_max`.")]
     phi: Annotated[Number, Field(description="Azimuth, deg, counter-clockwise from +x.")]
-    theta: Annotated[Number, Field(ge=0, le=THETA_MAX, description="Elevation of the cue, deg.")]
+    theta: Annotated[Number, Field(description="Elevation of the cue, deg, from 0 to the table's `theta_max`.")]
     a: Annotated[Number, Field(description="Tip offset to the side, mm; positive gives right english.")]
     b: Annotated[Number, Field(description="Tip offset in height, mm; positive gives follow.")]
 
@@ -30,10 +34,17 @@ class ShotParameters(Request):
         """The physics' own value."""
         return Shot(self.v, self.phi, self.theta, self.a, self.b)
 
+    def refuse_beyond(self, table: Table, place: str) -> None:
+        """Raise InvalidShot, its field beginning with ``place``, if ``v`` or ``theta`` is not in the table's range."""
+        try:
+            self.to_shot().refuse_beyond(table)
+        except InvalidShot as beyond:
+            raise InvalidShot(f"{place}.{beyond.field}", beyond.value, beyond.allowed) from None
+
     @classmethod
     def of(cls, shot: Shot) -> "ShotParameters":
         """The wire's form of a shot."""
-        return cls(**shot.to_dict())
+        return trusted(cls, **shot.to_dict())
 
 
 def _numbered_pocket(value: Any) -> Any:
@@ -144,7 +155,8 @@ class SubmittedAction(Message):
     @classmethod
     def of(cls, action: Action) -> "SubmittedAction":
         """The wire's form of an action."""
-        return cls(
+        return trusted(
+            cls,
             shot=None if action.shot is None else ShotParameters.of(action.shot),
             call=_from_call(action.call),
             cue_ball=action.cue_ball,
@@ -167,5 +179,5 @@ def _to_call(called: Called) -> Call | Literal["safety"] | None:
 
 def _from_call(call: Call | str | None) -> Called:
     if isinstance(call, Call):
-        return CallRequest(ball=call.ball, pocket=call.pocket)
+        return trusted(CallRequest, ball=call.ball, pocket=call.pocket)
     return None if call is None else "safety"

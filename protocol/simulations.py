@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 import physics
-from physics import InvalidState, Status, Table, TableState
+from physics import InvalidState, Status, TableState
 from physics.constants import N_BALLS
 from protocol.outcomes import EventView
 from protocol.physics import (
     BatchAnswer,
     BatchRequest,
     BatchRow,
+    FactsView,
     MinElevationAnswer,
     MinElevationRequest,
     SimulateAnswer,
@@ -28,7 +29,7 @@ ON_TABLE = 0
 
 def simulate(request: SimulateRequest, run: Callable[..., physics.Result] = physics.simulate) -> SimulateAnswer:
     """One shot; a shot that cannot be played is a result whose status says why. Raises `PhysicsError`."""
-    table, state = Table.from_dict(request.table), TableState.from_positions(request.balls)
+    table, state = request.table_model, TableState.from_positions(request.balls)
     result = run(table, state, request.shot.to_shot(), trace=request.trace)
     return SimulateAnswer(
         status=result.status.name.lower(),
@@ -36,14 +37,14 @@ def simulate(request: SimulateRequest, run: Callable[..., physics.Result] = phys
         duration=result.duration,
         n_events=result.n_events,
         balls=_balls(result.final.positions),
-        facts=_plain(dataclasses.asdict(result.facts)) | {"status": result.status.name.lower()},
+        facts=_facts(result),
         events=tuple(EventView.of(event) for event in result.events) if request.trace else None,
     )
 
 
 def simulate_batch(request: BatchRequest, run: Callable[..., physics.Batch] = physics.simulate_batch) -> BatchAnswer:
     """Many shots, each on its own. Raises `PhysicsError` naming the first bad row."""
-    batch = run(Table.from_dict(request.table), _tables(request), _shots(request))
+    batch = run(request.table_model, _tables(request), _shots(request))
     columns = (batch.status, batch.duration, batch.n_events, batch.positions, batch.pocket)
     rows = zip(*(column.tolist() for column in columns), strict=True)
     return BatchAnswer.model_construct(results=tuple(_row(*row) for row in rows))
@@ -51,9 +52,17 @@ def simulate_batch(request: BatchRequest, run: Callable[..., physics.Batch] = ph
 
 def min_elevation(request: MinElevationRequest) -> MinElevationAnswer:
     """The least elevation at which the cue is free. Raises `PhysicsError`."""
-    table, state = Table.from_dict(request.table), TableState.from_positions(request.balls)
-    theta = physics.min_elevation(table, state, request.phi, request.a, request.b)
+    state = TableState.from_positions(request.balls)
+    theta = physics.min_elevation(request.table_model, state, request.phi, request.a, request.b)
     return MinElevationAnswer(theta=None if math.isnan(theta) else theta)
+
+
+def _facts(result: physics.Result) -> FactsView:
+    """The facts by name; what cannot happen on a table without jaws is not said of it."""
+    facts: FactsView = _plain(dataclasses.asdict(result.facts)) | {"status": result.status.name.lower()}
+    if not result.table.has_jaws:
+        del facts["miscue"]
+    return facts
 
 
 def _tables(request: BatchRequest) -> TableState | NDArray[np.float64]:

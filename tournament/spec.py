@@ -9,12 +9,13 @@ from dataclasses import replace
 from enum import StrEnum
 from typing import Annotated, Any, Self
 
-from pydantic import PlainValidator, model_validator
+from pydantic import GetJsonSchemaHandler, PlainValidator, model_validator
+from pydantic_core import CoreSchema
 
 from referee.play.clock import LEAST_SECONDS, MOST_SECONDS
 from tournament.errors import InvalidSpec
 from tournament.noise_plan import NoisePlan
-from tournament.presets import expand
+from tournament.presets import PRESETS, expand
 from tournament.sprt_terms import SprtTerms
 from tournament.validation import Name, Value, integer, items, number, one_of, text, value
 
@@ -92,6 +93,11 @@ class Entrant(Value):
     def _short(cls, data: Any) -> Any:
         return {"name": data} if isinstance(data, str) else data
 
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """An object, or the short form."""
+        return {"anyOf": [{"type": "string"}, handler(schema)]}
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "agent", self.agent or self.name)
 
@@ -107,11 +113,12 @@ _DEFAULT_TIE_BREAKS = {
 def _table(value: Any) -> str | Mapping[str, Any]:
     """A table's name or its parameters; the physics says whether they make a table."""
     from physics import Table
+    from physics.table import NAMED
 
-    if value in ("olympiad", "fastfiz"):
-        return str(value)
+    if isinstance(value, str) and value in NAMED:
+        return value
     if not isinstance(value, Mapping):
-        raise InvalidSpec("", value, "must be olympiad, fastfiz or a table's parameters")
+        raise InvalidSpec("", value, f"must be {', '.join(NAMED)} or a table's parameters")
     return Table.from_dict(value).to_dict()
 
 
@@ -158,7 +165,8 @@ class Spec(Value):
         noise: the levels and whether the players are told.
         seconds: thinking time a player has for a game, 0.001 to 86,400; None: no wall clock.
         simulated_shots: shots a player may simulate in a game; None: any number.
-        table: ``"olympiad"``, ``"fastfiz"`` or a table's parameters as ``physics.Table.to_dict`` gives them.
+        table: a name of ``physics.table.NAMED``, or a table's name and parameters as ``physics.Table.to_dict`` gives
+            them; those left out have the named table's value.
         seed: lots, levels, racks and noise come from it. Left out (None), a server draws 256 bits; without a server the
             event repeats. Chosen, for a test that is to repeat: an integer, or 64 hexadecimal digits.
         sprt: stop as soon as this test decides; for two entrants.
@@ -186,6 +194,14 @@ class Spec(Value):
     seed: Annotated[int | str | None, PlainValidator(_seed)] = None
     sprt: SprtTerms | None = None
     lots: Annotated[str | None, PlainValidator(_lots)] = None
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """With what ``from_dict`` takes beside the fields."""
+        found = handler(schema)
+        properties = handler.resolve_ref_schema(found)["properties"]
+        properties |= {"preset": {"enum": sorted(PRESETS)}, "foreseeable": {"type": "boolean"}}
+        return found
 
     @model_validator(mode="before")
     @classmethod

@@ -38,7 +38,7 @@ def main() -> None:
     factory = partial(load(options.name, options.seed), **json.loads(options.options))
     if options.check is not None:
         try:
-            AgentSession(factory).start(_opening(options.check))
+            AgentSession(factory).start(_opening(options.check, Table.from_dict(json.loads(options.table))))
         except Exception as error:  # the session has shown the traceback
             sys.exit(f"{type(error).__name__}: {error}")
         return
@@ -86,7 +86,7 @@ class _LineHost:
         return action.to_dict() | {"simulated": session.budget.used}
 
 
-def _opening(seconds: float) -> View:
+def _opening(seconds: float, table: Table) -> View:
     """What the player who breaks sees, with so many seconds on its clock."""
     seen: list[View] = []
 
@@ -95,7 +95,7 @@ def _opening(seconds: float) -> View:
         raise Lost(EndReason.FORFEIT)
 
     timing = Timing(nanoseconds(seconds), lambda: 0)
-    play_game(EightBall(Table.olympiad()), (look, look), MatchSeed.of(0).game(0), NoiseModel(1.0), timing=timing)
+    play_game(EightBall(table), (look, look), MatchSeed.of(0).game(0), NoiseModel(1.0), timing=timing)
     return seen[0]
 
 
@@ -121,6 +121,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--seed", type=int, help="makes a shipped agent repeat its choices")
     words = "only make it and start it, in so many seconds; leaves with 1 if that fails"
     parser.add_argument("--check", type=float, metavar="SECONDS", help=words)
+    parser.add_argument("--table", default='{"name": "olympiad"}', help="for --check, a JSON object")
     parser.add_argument("--options", default="{}", help="keyword arguments for the class, as a JSON object")
     return parser
 

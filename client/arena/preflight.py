@@ -1,10 +1,12 @@
 """Whether every entrant can be made and started: found out before the first game, so that nobody loses points by it."""
 
 import contextlib
+import json
 import os
 import signal
 import subprocess
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -15,11 +17,29 @@ from client.arena.directory import EventError, file_name
 from client.arena.executors import Pool
 from client.arena.hosting import Hosting, Kind
 from client.arena.terms import Terms
+from client.prepare import prepare
+from physics import Table
 
 SECONDS: Final = 120.0
 """How long an entrant may take to load; one with more time for an answer may take that."""
 LINES: Final = 15
 """Of what it wrote, in the message: the end of a traceback."""
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """An entrant to try.
+
+    Attributes:
+        name: of the entrant. hosting: how it is run. seed: for agents of this package. table: of the event.
+        logs: directory for standard error; None for nowhere.
+    """
+
+    name: str
+    hosting: Hosting
+    seed: int
+    table: Table
+    logs: str | None
 
 
 def require_startable(
@@ -35,8 +55,15 @@ def require_startable(
     Raises:
         EventError: some cannot be made or started; the message has each with the end of its traceback.
     """
+    table = Table.from_dict({"name": terms.spec.table} if isinstance(terms.spec.table, str) else terms.spec.table)
     candidates = [
-        (name, hosting, terms.agent_seed, None if logs is None else str(logs.resolve() / f"start-{file_name(name)}"))
+        Candidate(
+            name,
+            hosting,
+            terms.agent_seed,
+            table,
+            None if logs is None else str(logs.resolve() / f"start-{file_name(name)}"),
+        )
         for name, hosting in terms.hosting.items()
         if hosting.kind is not Kind.REMOTE and name not in (withdrawn or {})
     ]
@@ -45,27 +72,29 @@ def require_startable(
         raise EventError("\n".join(dict.fromkeys(complaints)))
 
 
-def complaint(candidate: tuple[str, Hosting, int, str | None]) -> str | None:
+def complaint(candidate: Candidate) -> str | None:
     """Why an entrant cannot be made or started on this machine, in words; None if it can.
 
-    Args:
-        candidate: name, how it is run, the seed for agents of this package, the directory for standard error.
+    The physics of the event's table is compiled on the way, so that no clock pays for it.
     """
-    name, hosting, seed, logs = candidate
+    name, hosting = candidate.name, candidate.hosting
     try:
+        prepare(candidate.table)
         if hosting.kind is Kind.SHIPPED:
-            load(hosting.agent, seed)(**hosting.options)
+            load(hosting.agent, candidate.seed)(**hosting.options)
             return None
-        why = _tried(hosting, seed, logs)
+        why = _tried(candidate)
     except Exception as error:
         why = f"{type(error).__name__}: {error}"
     return why and f"entrant {name!r}: agent = {hosting.agent!r}: cannot be started: {why}"
 
 
-def _tried(hosting: Hosting, seed: int, logs: str | None) -> str | None:
+def _tried(candidate: Candidate) -> str | None:
     """Start it in a process under its limits, and say how that ended if it failed."""
+    hosting, logs = candidate.hosting, candidate.logs
     memory = None if hosting.memory_mb is None else hosting.memory_mb * 2**20
-    command = confined([*hosting.command(seed), "--check", str(hosting.answer_seconds)], memory=memory)
+    check = ["--check", str(hosting.answer_seconds), "--table", json.dumps(candidate.table.to_dict())]
+    command = confined([*hosting.command(candidate.seed), *check], memory=memory)
     process = subprocess.Popen(
         command,
         stdin=subprocess.DEVNULL,

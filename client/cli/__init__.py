@@ -8,6 +8,7 @@ import typer
 from client.cli import agent, backup, bench, demo, doctor, keys, replay, serve, simulate, tournament
 from client.cli.doctor import show_version
 from client.cli.output import FAILED
+from client.cli.tables import TableCommand
 
 
 def application() -> typer.Typer:
@@ -19,10 +20,10 @@ def application() -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback()(pooliad)
-    app.command("demo")(demo.demo)
+    app.command("demo", cls=TableCommand)(demo.demo)
     app.command("serve")(serve.serve)
     app.command("backup")(backup.backup)
-    app.command("simulate")(simulate.simulate)
+    app.command("simulate", cls=TableCommand)(simulate.simulate)
     app.command("doctor")(doctor.doctor)
     app.command("bench")(bench.bench)
     app.add_typer(agent.commands(), name="agent")

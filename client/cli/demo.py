@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from client.cli.output import USAGE, Json, emit, fail
+from client.cli.tables import NAMES, load_table
 
 
 def demo(
@@ -18,6 +19,7 @@ def demo(
         int | None, typer.Option(min=0, help="Repeats racks, first breaker, noise and the agents' choices.")
     ] = None,
     noise: Annotated[float, typer.Option(min=0.0, max=5.0, help="Noise level; 1 is the Olympiad's.")] = 1.0,
+    table: Annotated[str, typer.Option(help=f"{NAMES}, or JSON with parameters.")] = "olympiad",
     out: Annotated[
         Path | None, typer.Option(help="Directory for records, database and logs; a new one unless given.")
     ] = None,
@@ -32,13 +34,14 @@ def demo(
     from client.cli.serve import require_server
 
     require_server()
+    cloth = load_table(table)
     for name in agents:
         load_player(name)
     seed = secrets.randbelow(2**32) if seed is None else seed
     directory = _directory(out)
     with children() as started:
         stage = DemoSession(started, directory, agents, seed, quiet=as_json)
-        report = stage.play(games, noise)
+        report = stage.play(games, noise, cloth)
     if as_json:
         emit(report)
     if report["status"] != "finished":

@@ -5,8 +5,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from client.adapters.stdio import LOGS
 from client.agents.registry import titles
 from client.arena.journal import Journal
@@ -18,7 +16,8 @@ from client.cli.sentences import sentence_of, summary
 from client.cli.spectator import Ended, Played, follow
 from client.cli.tally import GameTally
 from client.http import Pooliad
-from physics import Shot, Table, min_elevation, rack, simulate, simulate_batch
+from client.prepare import prepare
+from physics import Table
 from protocol import AgentView, GameSummary, MatchRequest, MatchView, NoiseTerms
 from referee.play import MatchSeed
 
@@ -49,9 +48,10 @@ class DemoSession:
         self._reports: dict[str, Journal] = {}
         self._told: dict[str, str] = {}
 
-    def play(self, games: int, noise: float) -> dict[str, Any]:
+    def play(self, games: int, noise: float, table: Table) -> dict[str, Any]:
         """Play the match and return its account, as JSON."""
-        _warm_up(self._say)
+        self._say("preparing the physics (compiled once, then kept)")
+        prepare(table)  # by one process instead of three
         server = embedded.start(self._children, self._directory)
         with Pooliad(server.url, server.organiser) as organiser:
             entered = zip(titles(*self._agents), self._agents, strict=True)
@@ -59,11 +59,13 @@ class DemoSession:
             request = MatchRequest(
                 agents=(players[0].id, players[1].id),
                 games=games,
+                table=table.to_dict(),
                 noise=NoiseTerms(level=noise),
                 seed=MatchSeed.of(self._seed).secret.hex(),
             )
             match = organiser.create_match(request)
-            self._say(f"{match.players[0]} against {match.players[1]}, noise {noise:g}, seed {self._seed}")
+            first, second = match.players
+            self._say(f"{first} against {second}, table {table.name}, noise {noise:g}, seed {self._seed}")
             self._watch(organiser, match)
             return self._finish(organiser.match(match.id))
 
@@ -114,6 +116,7 @@ class DemoSession:
             "status": match.status,
             "seed": self._seed,
             "noise": match.noise.level,
+            "table": match.table["name"],
             "agents": list(match.players),
             "score": list(match.score),
             "winner": None if match.winner is None else match.players[match.winner],
@@ -149,14 +152,3 @@ def shortened(words: str) -> str:
     """What fits a line."""
     line = " ".join(words.split())
     return line if len(line) <= LONGEST_WORDS else f"{line[:LONGEST_WORDS]}..."
-
-
-def _warm_up(tell: Callable[[str], None]) -> None:
-    """Have the physics compiled before clocks run: once on a machine, and by one process instead of three."""
-    tell("preparing the physics (compiled once, then kept)")
-    table = Table.olympiad()
-    state = rack(table, "eight_ball", seed=0)
-    shot = Shot(1.0, 270.0, min_elevation(table, state, 270.0))
-    simulate(table, state, shot)
-    row = np.array([[shot.v, shot.phi, shot.theta, shot.a, shot.b]])
-    simulate_batch(table, state.positions[None].copy(), row)  # as greedy calls it: compiled for its own kind of array

@@ -1,5 +1,7 @@
 """`pooliad replay`: look at the record of a game, and verify it."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -17,9 +19,11 @@ File = Annotated[Path, typer.Argument(help="A record: JSON lines as the server a
 
 def commands() -> typer.Typer:
     """The subcommands."""
-    app = typer.Typer(help="Show and verify records of games.", no_args_is_help=True)
+    app = typer.Typer(help="Show, draw and verify records of games.", no_args_is_help=True)
     app.command("show")(show)
     app.command("verify")(verify)
+    app.command("picture")(picture)
+    app.command("html")(page)
     return app
 
 
@@ -37,7 +41,7 @@ def show(
     record = _read(file)
     if form is not None and (shot is None or as_json):
         fail("--as goes with --shot, and without --json", USAGE)
-    try:
+    with _whole(file):
         if form is not None and shot is not None:
             print(reproduction(record.header, _stroke(record, shot), form))
         elif shot is not None:
@@ -46,8 +50,42 @@ def show(
             emit({"header": record.header, "strokes": record.entries, "end": record.end})
         else:
             _tell_game(record)
-    except (LookupError, TypeError, ValueError, AttributeError) as error:
-        fail(f"{file} is no whole record of a game: {error!r}")
+
+
+def picture(
+    file: File,
+    shot: Annotated[int, typer.Option(min=1, help="The stroke, by the number that `replay show` lists.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="Where to: .svg, .png or .html, which moves.")],
+) -> None:
+    """Draw one stroke as it was played, noise included."""
+    from client.cli.drawing import called, draw, played
+
+    record = _read(file)
+    with _whole(file):
+        entry = _stroke(record, shot)
+        result, stroke = played(record, entry)
+        sentence, call = _sentence(entry, record.header["players"]), called(entry)
+    draw(output, result, stroke, call, sentence)
+    say(f"{output}")
+
+
+def page(
+    file: File,
+    output: Annotated[Path, typer.Option("--output", "-o", help="Where to.")],
+) -> None:
+    """Write the whole game as one HTML file that plays it, without a network."""
+    import pictures
+    from client.cli.drawing import played, write
+
+    record = _read(file)
+    with _whole(file):
+        players = record.header["players"]
+        strokes = [entry for entry in record.entries if entry["stroke"] is not None]
+        scenes = [pictures.Scene(played(record, entry)[0], _sentence(entry, players)) for entry in strokes]
+    if not scenes:
+        fail(f"{file}: nothing was played in this game")
+    write(output, pictures.html(scenes, title=f"{players[0]} against {players[1]}").encode())
+    say(f"{output}")
 
 
 def verify(
@@ -109,6 +147,15 @@ def _read(file: Path) -> "Record":
         fail(f"{file} is no record of a game: {error}")
     except (OSError, UnicodeDecodeError) as error:
         fail(f"{file} cannot be read: {error}", USAGE)
+
+
+@contextmanager
+def _whole(file: Path) -> Iterator[None]:
+    """Leave the command when a record lacks what a record has."""
+    try:
+        yield
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        fail(f"{file} is no whole record of a game: {error!r}")
 
 
 def _sentence(entry: dict[str, Any], players: tuple[str, str]) -> str:

@@ -1,10 +1,12 @@
 """`pooliad simulate`: what one shot does."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from client.cli.output import USAGE, Json, emit, fail, say
+from client.cli.tables import NAMES, load_table
 
 if TYPE_CHECKING:
     from physics import Result, Shot, Table, TableState
@@ -23,26 +25,31 @@ def simulate(
         typer.Option(help="Where the balls lie: 0:0.5,1.7 3:0.4,0.6 or JSON, or @FILE with either."),
     ] = None,
     rack: Annotated[int | None, typer.Option(min=0, help="A fresh 8-ball rack from this seed instead.")] = None,
-    table: Annotated[str, typer.Option(help="olympiad, fastfiz, or JSON with parameters.")] = "olympiad",
+    table: Annotated[str, typer.Option(help=f"{NAMES}, or JSON with parameters.")] = "olympiad",
+    picture: Annotated[
+        Path | None, typer.Option(help="Draw the shot into this file too: .svg, .png or .html, which moves.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Simulate one shot and print its events."""
     import math
     import sys
 
+    from client.cli.drawing import draw
     from client.geometry.aim import looks_like_radians
-    from physics import InvalidShot, InvalidState, InvalidTable, Shot, check, min_elevation
+    from physics import InvalidShot, InvalidState, Shot, check, min_elevation
     from physics import simulate as run
+    from pictures import described
 
+    cloth = load_table(table)
     try:
-        cloth = _table(table)
         state = _state(cloth, balls, rack)
         least = min_elevation(cloth, state, phi, a, b)
         if theta is None and math.isnan(least):
             fail(f"the cue is blocked at every elevation up to {cloth.theta_max:g} deg", USAGE)
         shot = Shot(v, phi, least if theta is None else theta, a, b)
         unplayable = check(cloth, state, shot)
-    except (InvalidShot, InvalidState, InvalidTable) as error:
+    except (InvalidShot, InvalidState) as error:
         fail(str(error), USAGE)
     if unplayable is not None:
         fail(f"this shot cannot be played: {unplayable.reason}", USAGE)
@@ -51,17 +58,12 @@ def simulate(
             f"pooliad: note: --phi is in degrees; {phi:g} rad would be --phi {math.degrees(phi):.6g}", file=sys.stderr
         )
     result = run(cloth, state, shot)
+    if picture is not None:
+        draw(picture, result, shot, None, described(result))
     if as_json:
         emit(_value(shot, result))
     else:
         _tell(shot, result)
-
-
-def _table(text: str) -> "Table":
-    """The table named, or described in JSON."""
-    from physics import Table
-
-    return Table.from_dict(_json("--table", text) if text.lstrip().startswith("{") else {"name": text})
 
 
 def _state(table: "Table", balls: str | None, rack: int | None) -> "TableState":
@@ -75,8 +77,6 @@ def _state(table: "Table", balls: str | None, rack: int | None) -> "TableState":
 
 def _read_balls(text: str) -> "TableState":
     """A position from its notation or from JSON, given or in a file."""
-    from pathlib import Path
-
     from client import notation
     from physics import TableState
 

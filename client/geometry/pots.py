@@ -1,9 +1,11 @@
 """Straight pots: one object ball, one pocket, the cue ball coming from where it lies.
 
+The object ball is sent to the middle of what the pocket has open to it (`client.geometry.openings`).
+
 A pot is judged by what an error of the cue's direction does to it. An error of `e` radians moves the cue
 ball's place at contact by about `cue_distance * e`, which turns the object ball by that over `2 R
-cos(cut)`, and moves it at the pocket by `ball_distance` times that turn. `tolerance` is the error that just
-still fits the mouth.
+cos(cut)`, and moves it at the pocket by `ball_distance` times that turn. `tolerance` is the error that the pocket
+just still takes.
 """
 
 import math
@@ -11,6 +13,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from client.geometry.aim import Point, azimuth, cut_angle, distance, ghost_ball
+from client.geometry.openings import Opening, opening
 from client.geometry.paths import blockers
 from physics import Table, TableState
 from physics.pocket_names import pocket_number
@@ -54,8 +57,12 @@ def pot(table: Table, state: TableState, ball: int, pocket: int | str) -> Pot:
     pocket.
     """
     cue_ball, place = places_of(state, ball)
-    pocket = pocket_number(pocket)
-    target = mouth(table, pocket)
+    return _pot(table, state, ball, pocket_number(pocket), cue_ball, place, opening(table, place, pocket))
+
+
+def _pot(table: Table, state: TableState, ball: int, pocket: int, cue_ball: Point, place: Point, entry: Opening) -> Pot:
+    """The pot by the way that an opening gives."""
+    target = entry.target
     ghost = ghost_ball(place, target, table.ball_radius)
     cut = cut_angle(cue_ball, place, target, table.ball_radius)
     phi = azimuth(cue_ball, ghost) if ghost != cue_ball else azimuth(place, target)
@@ -64,22 +71,23 @@ def pot(table: Table, state: TableState, ball: int, pocket: int | str) -> Pot:
     in_the_way = blockers(state, cue_ball, ghost, table.ball_radius, ignore=(0, ball)) + blockers(
         state, place, target, table.ball_radius, ignore=(0, ball)
     )
-    tolerance = _tolerance(table, pocket, place, cut, reach)
+    slack = entry.room * 2.0 * table.ball_radius * math.cos(math.radians(min(cut, 90.0)))
+    tolerance = math.degrees(math.atan2(slack, run * max(reach, table.ball_radius)))
     return Pot(ball, pocket, ghost, phi, cut, reach, run, in_the_way, tolerance)
 
 
 def pots(table: Table, state: TableState, balls: Iterable[int], pockets: Iterable[int | str] = range(6)) -> list[Pot]:
     """The open straight pots of `balls` into `pockets`, the most forgiving first."""
     into = tuple(map(pocket_number, pockets))
-    thin_enough = [(ball, pocket) for ball in balls for pocket in into if _can_be_cut(table, state, ball, pocket)]
-    found = [pot(table, state, ball, pocket) for ball, pocket in thin_enough]
+    found = []
+    for ball in balls:
+        cue_ball, place = places_of(state, ball)
+        for pocket in into:
+            entry = opening(table, place, pocket)
+            # quick to see, and true for half of all pairs
+            if cut_angle(cue_ball, place, entry.target, table.ball_radius) <= STEEPEST_CUT:
+                found.append(_pot(table, state, ball, pocket, cue_ball, place, entry))
     return sorted((each for each in found if each.is_open), key=lambda each: -each.tolerance)
-
-
-def _can_be_cut(table: Table, state: TableState, ball: int, pocket: int) -> bool:
-    """Whether the cut is one that can be played: quick to see, and false for half of all pairs."""
-    cue_ball, place = places_of(state, ball)
-    return cut_angle(cue_ball, place, mouth(table, pocket), table.ball_radius) <= STEEPEST_CUT
 
 
 def places_of(state: TableState, ball: int) -> tuple[Point, Point]:
@@ -91,39 +99,3 @@ def places_of(state: TableState, ball: int) -> tuple[Point, Point]:
         missing = 0 if cue_ball is None else ball
         raise ValueError(f"ball {missing} is not on the table; on it are {state.balls}")
     return cue_ball, place
-
-
-def mouth(table: Table, pocket: int | str) -> Point:
-    """Middle of a pocket's mouth line for ball centres."""
-    x, y = table.mouths[pocket_number(pocket)]
-    return float(x), float(y)
-
-
-def _tolerance(table: Table, pocket: int, place: Point, cut: float, reach: float) -> float:
-    """Error of the cue's direction (deg) that brings the ball to the edge of the mouth; see the module."""
-    target = mouth(table, pocket)
-    inward = _inward(table, pocket)
-    run = distance(place, target)
-    facing = abs((place[0] - target[0]) * inward[0] + (place[1] - target[1]) * inward[1]) / run
-    room = _half_mouth(table, pocket) * facing
-    slack = room * 2.0 * table.ball_radius * math.cos(math.radians(min(cut, 90.0)))
-    return math.degrees(math.atan2(slack, run * max(reach, table.ball_radius)))
-
-
-def _half_mouth(table: Table, pocket: int) -> float:
-    """Half the length of a mouth line for ball centres (m)."""
-    if _is_side(pocket):
-        return 0.5 * table.side_mouth
-    return (table.corner_reach - table.ball_radius) / math.sqrt(2.0)
-
-
-def _inward(table: Table, pocket: int) -> Point:
-    """Unit normal of a mouth line, towards the table."""
-    x, y = mouth(table, pocket)
-    right, up = math.copysign(1.0, 0.5 * table.width - x), math.copysign(1.0, 0.5 * table.length - y)
-    return (right, 0.0) if _is_side(pocket) else (right / math.sqrt(2.0), up / math.sqrt(2.0))
-
-
-def _is_side(pocket: int) -> bool:
-    """Whether the pocket is W or E, in the middle of a long cushion."""
-    return pocket in (1, 4)

@@ -1,5 +1,8 @@
 """What a learner sees and does, as vectors: a game as numbers in [0, 1], an action from numbers in [-1, 1].
 
+On every table alike: places are shares of its width and length, speed is a share of its `v_max`, elevation of what its
+`theta_max` leaves above the least that is free. A ball in the jaws, beyond the noses, is seen at the edge.
+
 Every vector in [-1, 1]^8 is a legal action: elevations count from the least that is free, a place that is taken gives
 way to the nearest free one, calls and decisions are chosen among those that are open.
 """
@@ -12,7 +15,7 @@ from numpy.typing import NDArray
 
 from client.geometry import are_free, lattice
 from physics import Table
-from physics.constants import N_BALLS, N_POCKETS, V_MAX
+from physics.constants import N_BALLS, N_POCKETS
 from physics.cue import are_playable, min_elevations
 from referee import Action, CueBallArea, Decision, Game, Group, Phase
 from referee.play.batch import Strokes, groups_of_shooters
@@ -152,7 +155,7 @@ def _place_cue_balls(table: Table, games: Sequence[Game], before: Floats, shares
 def _shots(table: Table, before: Floats, shares: Floats) -> Floats:
     """The strokes asked for, (n, 5), turned as far as need be for the cue to be free."""
     a, b = (2.0 * shares[:, SIDE] - 1.0) * OFFSET, (2.0 * shares[:, HEIGHT] - 1.0) * OFFSET
-    shots = np.column_stack((shares[:, SPEED] * V_MAX, np.zeros((len(shares), 2)), a, b))
+    shots = np.column_stack((shares[:, SPEED] * table.v_max, np.zeros((len(shares), 2)), a, b))
     left = np.arange(len(shares))
     for turn in range(TURNS):
         shots[left, PHI] = 360.0 * (shares[left, DIRECTION] + turn / TURNS)

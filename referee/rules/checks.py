@@ -1,6 +1,7 @@
 """Everything that can be wrong with an action before it is played: refusals, never fouls."""
 
 from physics.cue import check as check_cue
+from physics.errors import InvalidShot
 from physics.state import TableState
 from physics.table import Table
 from referee.game import EIGHT, SAFETY, Action, Call, Decision, Game, Phase, Refusal, RuleId, callable_balls
@@ -25,9 +26,8 @@ def refuse_phase(game: Game, action: Action) -> tuple[Refusal, ...]:
         return (Refusal(game.outcome.rule, "action", action.to_dict(), "nothing: the game is over"),)
     if action.decision is Decision.CONCEDE and game.phase is not Phase.RERACK:
         return ()
-    value = action.to_dict()
     if game.phase is Phase.RERACK:
-        return (Refusal(RuleId.R49, "action", value, "nothing before the balls are racked again"),)
+        return (Refusal(RuleId.R49, "action", action.to_dict(), "nothing before the balls are racked again"),)
     if game.phase is Phase.DECISION:
         return _refuse_choice(game, action)
     if action.decision is not None:
@@ -57,6 +57,11 @@ def refuse_call(game: Game, action: Action) -> tuple[Refusal, ...]:
 def refuse_stroke(table: Table, game: Game, action: Action) -> tuple[Refusal, ...]:
     """R39: an intended stroke that cannot be played is refused; only noise makes a miscue."""
     assert action.shot is not None
+    try:
+        action.shot.refuse_beyond(table)
+    except InvalidShot as beyond:
+        allowed = beyond.allowed.removeprefix("must be ")
+        return (Refusal(RuleId.R39, f"shot.{beyond.field}", beyond.value, allowed),)
     unplayable = check_cue(table, start_state(game, action), action.shot)
     if unplayable is None:
         return ()

@@ -4,7 +4,20 @@ from typing import Final
 
 from fastapi import APIRouter
 
-from server.routes import agents, games, health, keys, matches, page, physics, streams, tokens, tournaments, turns
+from server.routes import (
+    agents,
+    games,
+    health,
+    keys,
+    matches,
+    page,
+    physics,
+    streams,
+    tables,
+    tokens,
+    tournaments,
+    turns,
+)
 
 ROUTERS: Final[tuple[APIRouter, ...]] = (
     agents.router,
@@ -14,6 +27,7 @@ ROUTERS: Final[tuple[APIRouter, ...]] = (
     games.router,
     streams.router,
     physics.router,
+    tables.router,
     keys.router,
     tokens.router,
     health.router,

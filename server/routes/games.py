@@ -1,8 +1,9 @@
 """Games: how they stand, the players' actions, the history and the record."""
 
 from functools import partial
+from typing import Annotated
 
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Query, Response
 
 from protocol import ClockLedger, DecisionRequest, ForfeitRequest, GameAnswer, ShotRequest, ShotsPage, StrokeAnswer
 from server.errors import (
@@ -24,11 +25,17 @@ from server.http.dependencies import ANYBODY, ContextDep, Cursor, InHand, Limit,
 from server.http.describe import OWNED, describe
 from server.services.play import forfeits, history, strokes
 from server.services.play.clock import ledger
+from server.services.watch import pictures
 
 router = APIRouter(prefix="/v1/games/{game_id}", tags=["games"])
 
 ACTION_PROBLEMS = (*OWNED, VersionRequired, GameFinished, StaleVersion, NotYourTurn, OutOfTime, BudgetSpent)
 RECORD_TYPE = "application/x-ndjson"
+
+SVG = "image/svg+xml"
+STANDS_ALONE = {"Content-Security-Policy": "default-src 'none'"}
+Theme = Annotated[str, Query(description="`dark` for screens, `light` for paper")]
+Upright = Annotated[bool, Query(description="the head string on top instead of on the left")]
 
 
 @router.get("", **describe(NotFound, Unauthorized, success={200: GameAnswer}, token=False), summary="How a game stands")
@@ -101,6 +108,32 @@ def clock(game_id: str, context: ContextDep) -> ClockLedger:
 def shots(game_id: str, context: ContextDep, cursor: Cursor, limit: Limit) -> ShotsPage:
     """Strokes and decisions in order, with their events."""
     return history.shots(context, game_id, cursor, limit)
+
+
+@router.get(
+    "/position.svg",
+    **describe(NotFound, Invalid, Unauthorized, success={200: SVG}, token=False),
+    dependencies=[ANYBODY],
+    summary="A picture of how the balls lie",
+)
+def position_picture(game_id: str, context: ContextDep, theme: Theme = "dark", upright: Upright = False) -> Response:
+    """To scale. `ETag` is the game's version."""
+    drawn, version = pictures.position(context, game_id, theme, upright)
+    return Response(drawn, media_type=SVG, headers=STANDS_ALONE | {"ETag": f'"{version}"', "Cache-Control": "no-cache"})
+
+
+@router.get(
+    "/shots/{number}.svg",
+    **describe(NotFound, Invalid, Unauthorized, success={200: SVG}, token=False),
+    dependencies=[ANYBODY],
+    summary="A picture of what a stroke did",
+)
+def stroke_picture(
+    game_id: str, number: str, context: ContextDep, theme: Theme = "dark", upright: Upright = False
+) -> Response:
+    """Paths, ghost ball, cue and call, to scale. `number` counts the strokes and decisions of the history from 0."""
+    drawn = pictures.stroke(context, game_id, number, theme, upright)
+    return Response(drawn, media_type=SVG, headers=STANDS_ALONE | {"Cache-Control": "public, max-age=86400"})
 
 
 @router.get(

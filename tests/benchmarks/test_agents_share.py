@@ -1,8 +1,11 @@
 """A bounded share of `pooliad bench agents`."""
 
+import pytest
+
 from benchmarks import agents
 
 
+@pytest.mark.slow
 def test_a_match_against_random_is_accounted_for():
     row = agents.against_random("random", 2, seed=4)
     assert row["won"] + row["lost"] == 2

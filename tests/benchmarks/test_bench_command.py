@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -38,7 +39,7 @@ def test_an_unknown_benchmark_is_wrong_usage(tmp_path):
 
 @pytest.mark.parametrize(("failures", "code"), [([], 0), ([{"shot": 1}], 1)])
 def test_the_line_is_printed_and_failures_are_an_exit_code(monkeypatch, capsys, failures, code):
-    appended = []
+    appended: list[Any] = []
     measure = SimpleNamespace(measure=lambda full: {"rows": [{"full": full}], "failures": failures})
     monkeypatch.setattr(importlib, "import_module", lambda name: {"benchmarks.speed": measure}[name])
     monkeypatch.setattr(recording, "append", appended.append)

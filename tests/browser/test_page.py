@@ -1,9 +1,11 @@
 """What holds for every view: headers, accessibility (axe-core, WCAG 2.2 AA), 390 px, keys, both colour schemes."""
 
 from pathlib import Path
+from typing import Any
 
 import axe_playwright_python
 import pytest
+from playwright.sync_api import Page
 from support.play_along import play_on
 
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
@@ -18,7 +20,7 @@ def match(server):
     return made
 
 
-def addresses(match) -> dict[str, str]:
+def addresses(match: Any) -> dict[str, str]:
     return {
         "lobby": "#/",
         "game": f"#/games/{match.game}",
@@ -29,7 +31,7 @@ def addresses(match) -> dict[str, str]:
     }
 
 
-def sign_in(page, server) -> str:
+def sign_in(page: Page, server: Any) -> str:
     """Into the page's tab, by the token of a fresh agent; its id."""
     made = server.register()
     page.goto(f"{server.url}/#/play")
@@ -39,7 +41,7 @@ def sign_in(page, server) -> str:
     return str(made["agent"]["id"])
 
 
-def take_a_turn(page, server, agent: str) -> None:
+def take_a_turn(page: Page, server: Any, agent: str) -> None:
     """At the table, with the cue ball in hand."""
     request = {"agents": [agent, server.register()["agent"]["id"]], "first_breaker": 0, "clock": {"seconds": 3600}}
     assert server.send("POST", "/v1/matches", json=request).status_code == 201
@@ -48,7 +50,7 @@ def take_a_turn(page, server, agent: str) -> None:
     page.get_by_role("region", name="Your turn").wait_for()
 
 
-def show(page, server, match, view: str) -> None:
+def show(page: Page, server: Any, match: Any, view: str) -> None:
     page.goto(f"{server.url}/{addresses(match)[view]}")
     page.locator("main h1").wait_for()
     ready = {"lobby": "a.thumbnail .names", "game": "ul.rules li", "lab": ".shot-form", "play": "section.panel"}
@@ -76,7 +78,7 @@ def test_axe_finds_nothing(new_page, server, match, scheme):
     assert any(fault.startswith("button-name") for fault in violations(page)), "axe looks at nothing"
 
 
-def violations(page) -> list[str]:
+def violations(page: Page) -> list[str]:
     """In the page's own world, by the debugger: the policy lets no script in otherwise."""
     page.evaluate(AXE.read_text())
     result = page.evaluate("rules => axe.run(document, rules)", RULES)
@@ -104,7 +106,7 @@ SMALL = """() => [...document.querySelectorAll('main button, main select, main i
 
 
 def test_headers_let_nothing_else_in(server):
-    for path in ("/", "/web/main.js", "/web/style.css", "/web/icon.svg", "/web/rules.json"):
+    for path in ("/", "/web/main.js", "/web/style.css", "/web/icon.svg", "/web/rules.json", "/web/tables.json"):
         answer = server.http.get(path)
         assert answer.status_code == 200, path
         policy = answer.headers["content-security-policy"]
@@ -165,6 +167,7 @@ def test_colours_are_chosen_and_kept(page, server):
     assert page.evaluate("document.documentElement.dataset.theme") == "dark"
 
 
+@pytest.mark.slow
 def test_the_reference_of_the_interface_is_read_in_a_browser(new_page, server):
     """At /docs, on a phone, under the page's policy; `new_page` sees requests to other hosts and breaches."""
     page = new_page(390)

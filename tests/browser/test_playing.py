@@ -5,8 +5,10 @@ import re
 import time
 import uuid
 from pathlib import Path
+from typing import Any
 
 import pytest
+from playwright.sync_api import Page
 from support.play_along import Match, act
 from support.players import Potter
 
@@ -24,7 +26,7 @@ PATIENCE = 150_000
 class Hand:
     """Somebody at the page: thinks like a `Potter`, and works the controls."""
 
-    def __init__(self, page, server) -> None:
+    def __init__(self, page: Page, server: Any) -> None:
         self.page, self.server = page, server
         self.potter = Potter("hand")
         self.token = page.evaluate("sessionStorage.getItem('pooliad.token')")
@@ -50,7 +52,7 @@ class Hand:
             self.fill("Cue speed, m/s", action.shot.v)
             turn.get_by_role("button", name="Shoot").click()
 
-    def call(self, call) -> None:
+    def call(self, call: Any) -> None:
         if call == "safety":
             self.page.get_by_role("checkbox", name="safety").check()
         elif call is not None:
@@ -65,7 +67,7 @@ class Hand:
 
 
 @pytest.fixture
-def human(new_page, server) -> Hand:
+def human(new_page: Any, server: Any) -> Hand:
     """At the page Play, signed in under a new name; without animations, as whoever prefers so."""
     return sat_down(new_page(reduced_motion="reduce"), server)
 
@@ -93,7 +95,7 @@ def test_only_the_choice_on_show_looks_out_for_challenges(new_page, server):
     assert page.evaluate(CHOOSE_AGAIN, [path]) == 3 + 1
 
 
-def sat_down(page, server) -> Hand:
+def sat_down(page: Page, server: Any) -> Hand:
     """Signed in under a new name."""
     page.goto(f"{server.url}/#/play")
     page.get_by_label("New here? Choose a name").fill(f"human {uuid.uuid4().hex}")
@@ -119,7 +121,7 @@ def challenge(hand: Hand) -> tuple[Match, int]:
     return Match(hand.server, view, tokens), seat
 
 
-def seated(hand: Hand, **terms) -> tuple[Match, int]:
+def seated(hand: Hand, **terms: Any) -> tuple[Match, int]:
     """A match that is the same every time; the hand has seat 0 and begins, the other has seat 1."""
     other = hand.server.register()
     request = {"agents": [hand.id, other["agent"]["id"]], "seed": "d" * 64, "noise": {"level": 0.0}}
@@ -286,12 +288,12 @@ def test_the_cue_ball_is_dragged_and_the_cue_aimed_by_mouse_and_keys(human):
     assert float(speed.input_value()) == pytest.approx(before - 0.05)
 
 
-def cue_ball(page) -> tuple[float, ...]:
+def cue_ball(page: Page) -> tuple[float, ...]:
     """Where the fields say that it lies."""
     return tuple(float(page.get_by_label(f"Cue ball {way}, m").input_value()) for way in ("across", "along"))
 
 
-def carry(page, table: physics.Table, end) -> None:
+def carry(page: Page, table: physics.Table, end: Any) -> None:
     """Drag the cue ball; again when the page has moved below the pointer, for a preview that came meanwhile."""
     for _ in range(4):
         drag(page, table, cue_ball(page), end)
@@ -300,7 +302,7 @@ def carry(page, table: physics.Table, end) -> None:
     pytest.fail(f"the cue ball was dragged to {end} and lies at {cue_ball(page)}")
 
 
-def drag(page, table: physics.Table, start, end) -> None:
+def drag(page: Page, table: physics.Table, start: Any, end: Any) -> None:
     canvas = page.locator(".table canvas")
     canvas.scroll_into_view_if_needed()
     box = canvas.bounding_box()
@@ -310,7 +312,7 @@ def drag(page, table: physics.Table, start, end) -> None:
     page.mouse.up()
 
 
-def pixel(table: physics.Table, box, place) -> tuple[float, float]:
+def pixel(table: physics.Table, box: Any, place: Any) -> tuple[float, float]:
     """Where the page draws a place of the table: to scale, upright or lying, never mirrored."""
     if box["width"] > box["height"]:
         scale = box["width"] / (table.length + 2 * FRAME)
@@ -344,7 +346,7 @@ def test_the_laboratory_simulates_spreads_and_writes(human):
     written = json.loads(page.get_by_label("Text", exact=True).input_value())
     assert written["shot"] == {"v": 3, "phi": 265, "theta": 5, "a": 0, "b": 4}
     page.get_by_label("Format").select_option("Python")
-    names: dict = {}
+    names: dict[str, Any] = {}
     exec(page.get_by_label("Text", exact=True).input_value(), names)
     assert names["result"].final == result.final
     page.get_by_role("button", name="Play the shot").click()
@@ -358,11 +360,11 @@ def test_the_laboratory_simulates_spreads_and_writes(human):
 class HeldBack:
     """Requests of a page that reach the server when the test says so."""
 
-    def __init__(self, page, pattern: str) -> None:
-        self.held: list | None = []
+    def __init__(self, page: Page, pattern: str) -> None:
+        self.held: list[Any] | None = []
         page.route(pattern, self._come)
 
-    def _come(self, route) -> None:
+    def _come(self, route: Any) -> None:
         if self.held is None:
             route.continue_()
         else:
@@ -426,10 +428,11 @@ def shoot_faster(hand: Hand) -> None:
     hand.page.get_by_text("events in").filter(has_not_text=before).wait_for()
 
 
-def picture(page) -> str:
+def picture(page: Page) -> str:
     return str(page.locator(".table canvas").evaluate("canvas => canvas.toDataURL()"))
 
 
+@pytest.mark.slow
 def test_a_house_bot_accepts_and_plays(new_page, own_server_with_bot):
     """An unrated game, with a seed of each player's in its draw."""
     page = new_page(reduced_motion="reduce")

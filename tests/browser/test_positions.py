@@ -3,14 +3,16 @@
 import json
 import math
 import random
-from pathlib import Path
+from typing import Any
 
 import pytest
+from playwright.sync_api import Page
 from support.players import Potter
 
 import physics
 from client.local_game import PlayedGame, play_game
 from referee import Action, EightBall, MatchSeed, NoiseModel
+from referee.game import Decision
 
 TOLERANCE = 1e-9
 AT = """async ([table, entry, times]) => {
@@ -23,8 +25,8 @@ AT = """async ([table, entry, times]) => {
 SLIDE = "(slider, time) => { slider.value = time; slider.dispatchEvent(new Event('input')); }"
 
 
-def short_game(seed: int, actions: int) -> PlayedGame:
-    """A break and some strokes after it, then a concession."""
+def short_game(seed: int, actions: int, table: physics.Table | None = None) -> PlayedGame:
+    """A break and some strokes after it, then a concession; every tenth game on the historical table unless told."""
     left = [actions]
 
     def player(name):
@@ -32,28 +34,30 @@ def short_game(seed: int, actions: int) -> PlayedGame:
 
         def choose(view):
             left[0] -= 1
-            return Action(decision="concede") if left[0] < 0 else potter(view)
+            return Action(decision=Decision.CONCEDE) if left[0] < 0 else potter(view)
 
         return choose
 
-    table = physics.Table.fastfiz() if seed % 10 == 9 else physics.Table.olympiad()
+    if table is None:
+        table = physics.Table.fastfiz() if seed % 10 == 9 else physics.Table.olympiad()
     chairs = (player(f"ann {seed}"), player(f"bob {seed}"))
     return play_game(EightBall(table), chairs, MatchSeed.of(seed).game(0), NoiseModel(1.0), players=("ann 3", "bob 3"))
 
 
-def times_of(stroke, chance: random.Random) -> list[float]:
+def times_of(stroke: Any, chance: random.Random) -> list[float]:
     """The ends, moments at random, and events: their times and halfway to the next."""
     duration, events = stroke.result.duration, stroke.result.events
     if len(events) < 2:  # a miscue: nothing has moved
         return [0.0, duration]
     chosen = [events[chance.randrange(len(events))].time for _ in range(4)]
     places = [chance.randrange(len(events) - 1) for _ in range(4)]
+    places += [event.index for event in events if event.kind == "jaw_collision" and event.index + 1 < len(events)]
     between = [events[n].time / 2 + events[n + 1].time / 2 for n in places]
     return [0.0, duration, *chosen, *between, *(chance.uniform(0.0, duration) for _ in range(4))]
 
 
-def compare(page, game: PlayedGame, seed: int) -> tuple[int, float]:
-    """How many positions were compared, and the largest distance (m)."""
+def compare(page: Page, game: PlayedGame, seed: int) -> tuple[int, float]:
+    """How many positions were compared, and the largest distance (m); moments right after hits of jaws among them."""
     chance, compared, worst = random.Random(seed), 0, 0.0
     header, *lines = [json.loads(line) for line in game.record()]
     for stroke, line in zip(game.strokes, lines, strict=False):
@@ -74,6 +78,7 @@ def compare(page, game: PlayedGame, seed: int) -> tuple[int, float]:
     return compared, worst
 
 
+@pytest.mark.slow
 def test_positions_of_fifty_records_are_those_of_the_physics(page, server):
     """Fifty breaks and the strokes after them; every tenth game on the historical table."""
     page.goto(server.url)
@@ -85,6 +90,33 @@ def test_positions_of_fifty_records_are_those_of_the_physics(page, server):
     assert worst < TOLERANCE
 
 
+REAL = {
+    "nine_foot": physics.Table.nine_foot(),
+    "seven_foot": physics.Table.seven_foot(),
+    "eight_foot of other laws": physics.Table.eight_foot().replace(cushion="mathavan", ball="consistent", mu_slide=0.3),
+}
+
+
+@pytest.mark.parametrize("kind", REAL)
+def test_positions_of_games_with_jaws_are_those_of_the_physics(page, server, kind):
+    """Issue 15: balls that rattle in the jaws, hang there or drop over the edge, drawn by the same closed forms."""
+    page.goto(server.url)
+    compared, worst, jaws, fallen = 0, 0.0, 0, 0
+    for seed in range(15):
+        game = short_game(seed, 5, REAL[kind])
+        count, distance = compare(page, game, seed)
+        compared, worst = compared + count, max(worst, distance)
+        kinds = [event.kind for stroke in game.strokes if stroke.result for event in stroke.result.events]
+        jaws, fallen = (
+            jaws + kinds.count(physics.EventKind.JAW_COLLISION),
+            fallen + kinds.count(physics.EventKind.POCKET_COLLISION),
+        )
+    assert compared > 8_000
+    assert jaws > 20
+    assert fallen > 5
+    assert worst < TOLERANCE
+
+
 @pytest.mark.long
 def test_positions_of_whole_games_are_those_of_the_physics(page, server):
     page.goto(server.url)
@@ -92,7 +124,7 @@ def test_positions_of_whole_games_are_those_of_the_physics(page, server):
     assert worst < TOLERANCE
 
 
-def test_a_record_file_replays_without_the_server(page, own_server, watched, tmp_path: Path):
+def test_a_record_file_replays_without_the_server(page, own_server, watched, tmp_path):
     """Chosen from the disk, scrubbed with the slider, stepped by event; the server is gone meanwhile."""
     watched.forgiven = ("Failed to load resource", "ERR_CONNECTION")
     game = short_game(3, 4)
@@ -120,7 +152,7 @@ def test_a_record_file_replays_without_the_server(page, own_server, watched, tmp
     page.locator(".row[aria-current]", has_text="ann 3").wait_for()
 
 
-def test_a_file_that_is_no_record_is_said_to_be_none(page, server, tmp_path: Path):
+def test_a_file_that_is_no_record_is_said_to_be_none(page, server, tmp_path):
     for content in ("", "{}", "not json", '{"type":"game"}', "[1,2]"):
         file = tmp_path / "bad.jsonl"
         file.write_text(content)

@@ -1,7 +1,9 @@
 """A tournament on the page: in the lobby, its standings and ratings, and from there down to a game."""
 
 import signal
+from typing import Any
 
+import pytest
 from support.play_along import Match, next_turn
 
 
@@ -31,6 +33,7 @@ def test_a_tournament_is_followed_from_the_lobby_to_a_game(page, server):
     page.locator(".result", has_text="wins: concession").wait_for()
 
 
+@pytest.mark.slow
 def test_a_tournament_that_is_looked_at_goes_on_before_the_eyes(page, own_server, watched):
     """Seen: opened before its start it never moved, and one look that failed, as in a restart, was the last."""
     watched.forgiven = ("Failed to load resource", "ERR_CONNECTION", "ERR_INCOMPLETE", "ERR_NETWORK", "ERR_EMPTY")
@@ -72,11 +75,11 @@ def test_an_event_and_its_matches_with_a_chosen_seed_are_marked(page, server):
     page.locator(".heading .mark", has_text="unrated").wait_for()
 
 
-def read(server, event: str) -> dict:
+def read(server: Any, event: str) -> dict[str, Any]:
     return dict(server.http.get(f"/v1/tournaments/{event}").json())
 
 
-def concede(server, game: dict, players: dict) -> None:
+def concede(server: Any, game: dict[str, Any], players: dict[str, Any]) -> None:
     view = server.http.get(f"/v1/matches/{game['match']}").json()
     if view["status"] == "opening":
         for name in game["players"]:

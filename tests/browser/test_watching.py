@@ -4,11 +4,13 @@ import json
 import signal
 import uuid
 from pathlib import Path
+from typing import Any
 
+import pytest
 from support.play_along import act, next_turn, play_on
 
 
-def concede(match) -> None:
+def concede(match: Any) -> None:
     seat, view = next_turn(match)
     headers = {"If-Match": f'"{view.version}"'}
     path = f"/v1/games/{view.game}/decisions"
@@ -47,6 +49,7 @@ def test_a_live_game_is_watched_to_its_end(page, server):
     assert json.loads(text.splitlines()[0])["game"] == game
 
 
+@pytest.mark.slow
 def test_a_restart_of_the_server_is_survived(page, own_server, watched):
     """Killed, not stopped: the page says so, comes back by itself, and goes on after the last stroke it has."""
     watched.forgiven = ("Failed to load resource", "ERR_CONNECTION", "ERR_INCOMPLETE", "ERR_NETWORK", "ERR_EMPTY")
@@ -104,7 +107,7 @@ def test_the_first_game_of_an_empty_lobby_brings_its_match(page, own_server):
     matches.get_by_role("link", name="first ann – first bob").wait_for()
 
 
-def test_what_agents_say_never_becomes_markup(page, server, tmp_path: Path):
+def test_what_agents_say_never_becomes_markup(page, server, tmp_path):
     """Names and rulings of a record are anybody's text: shown as it is, and nothing else happens."""
     match = server.match()
     play_on(match)

@@ -31,7 +31,7 @@ def turn(balls, noise=1.0, **fields):
     return game, _Turn(RULES, game, noise, chance, client.Simulator())
 
 
-@pytest.mark.parametrize("noise", [0.0, 1.0, 5.0])
+@pytest.mark.parametrize("noise", [0.0, 1.0, pytest.param(5.0, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("pair", [("random", "random"), ("greedy", "random")], ids="-".join)
 def test_no_action_of_a_shipped_agent_is_refused(pair, noise):
     """Whole games, every phase of them: breaks, ball in hand, decisions, the 8."""
@@ -41,6 +41,7 @@ def test_no_action_of_a_shipped_agent_is_refused(pair, noise):
         assert refused == []
 
 
+@pytest.mark.slow
 def test_greedy_is_far_ahead_of_random():
     """It wins 99 of 100 (docs/agents.md): three lost of ten would happen to one seed in ten thousand."""
     assert client.play("greedy", "random", games=10, seed=21).score[0] >= 8.0

@@ -3,7 +3,6 @@
 import inspect
 import subprocess
 import sys
-from pathlib import Path
 from typing import get_args
 
 import pytest
@@ -74,8 +73,10 @@ def test_a_method_says_what_its_call_says(name):
     assert wanted.return_annotation.__origin__ is ApiCall
 
 
-@pytest.mark.parametrize(("program", "wrong"), [(TYPED, 0), (WRONG, 3)], ids=["right", "wrong"])
-def test_a_type_checker_knows_arguments_and_answers(tmp_path: Path, program, wrong):
+@pytest.mark.parametrize(
+    ("program", "wrong"), [pytest.param(TYPED, 0, marks=pytest.mark.slow), (WRONG, 3)], ids=["right", "wrong"]
+)
+def test_a_type_checker_knows_arguments_and_answers(tmp_path, program, wrong):
     require(subprocess.run([sys.executable, "-m", "mypy", "--version"], capture_output=True).returncode == 0, "mypy")
     file = tmp_path / "program.py"
     file.write_text(program)

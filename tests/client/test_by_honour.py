@@ -13,7 +13,7 @@ from protocol import ClockTerms
 from referee.record import verify_record
 
 BREAK = client.Action(shot=physics.Shot(9.0, 270.0, 5.0), cue_ball=(0.558, 1.75))
-CONCEDE = client.Action(decision="concede")
+CONCEDE = client.Action(decision=client.Decision.CONCEDE)
 SHOT = physics.Shot(1.0, 270.0, 10.0)
 
 

@@ -19,6 +19,7 @@ import physics
 from client import notation
 from client.cli import application, serve
 from physics.engine import digest
+from physics.table import NAMED
 from referee.record import this_engine
 
 POSITION = "0:0.5,1.7 3:0.4,0.6"
@@ -85,6 +86,23 @@ def test_simulate_takes_json_a_file_and_a_rack(tmp_path):
     assert "ball collision" in broken.stdout
 
 
+@pytest.mark.parametrize("command", ["simulate", "demo"])
+def test_help_lists_the_tables_there_are(command):
+    """From the physics itself: no second list of names."""
+    told = " ".join(run(command, "--help").output.replace("│", " ").split())
+    assert f"{', '.join(NAMED)}, or JSON with parameters." in told
+
+
+def test_simulate_between_jaws():
+    shot = ["simulate", "--v", 4, "--phi", 260, "--theta", 8, "--balls", POSITION, "--json", "--table"]
+    nine = json.loads(run(*shot, "nine_foot").stdout)
+    hard = json.loads(run(*shot, '{"name": "nine_foot", "cushion": "mathavan"}').stdout)
+    assert nine["final"] != hard["final"]
+    fast = ["simulate", "--v", 11, "--phi", 260, "--theta", 8, "--balls", POSITION, "--table"]
+    assert run(*fast, "nine_foot").exit_code == 0, "its v_max is 12 m/s"
+    assert run(*fast, "olympiad").exit_code == 2
+
+
 def test_simulate_on_another_table():
     shot = ["simulate", "--v", 2, "--phi", 260, "--theta", 8, "--balls", POSITION, "--json", "--table"]
     usual = json.loads(run(*shot, "olympiad").stdout)
@@ -104,7 +122,15 @@ def test_simulate_on_another_table():
         (["--v", "2", "--phi", "0", "--balls", "0:0.5,0.5 1:0.5,0.51"], "overlaps"),
         (["--v", "2", "--phi", "0", "--balls", "{"], "not JSON"),
         (["--v", "2", "--phi", "0", "--balls", "@/nowhere/at/all"], "/nowhere/at/all"),
-        (["--v", "2", "--phi", "0", "--balls", POSITION, "--table", "snooker"], "snooker"),
+        (
+            ["--v", "2", "--phi", "0", "--balls", POSITION, "--table", "snooker"],
+            "name = 'snooker': must be one of ('olympiad'",
+        ),
+        (["--v", "2", "--phi", "0", "--balls", POSITION, "--table", '{"name":'], "--table is not JSON"),
+        (
+            ["--v", "2", "--phi", "0", "--balls", POSITION, "--table", '{"name": "nine_foot", "v_max": NaN}'],
+            "v_max = nan: must be a number from 0.1 to 20 m/s",
+        ),
         (["--v", "2", "--phi", "0", "--balls", "3:0.4,0.6"], "there must be a cue ball"),
         (["--v", "2", "--phi", "90", "--theta", "0", "--balls", "0:0.5,0.03"], "cannot be played"),
         (["--v", "2", "--phi", "0", "--a", "40", "--balls", POSITION], "a^2 + b^2"),

@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import subprocess
+from typing import Any
 
 import pytest
 from support.require import ROOT, require
@@ -30,7 +31,7 @@ def test_the_own_agent_has_fewer_than_twenty_lines():
 
 
 def test_every_python_block_runs(capsys):
-    names: dict = {}
+    names: dict[str, Any] = {}
     own_agent(names)
     for block in blocks("python")[1:]:
         exec(compile(block, "docs/agents.md", "exec"), names)

@@ -2,6 +2,7 @@
 
 import inspect
 import re
+from typing import Any
 
 import httpx2
 import pytest
@@ -26,7 +27,7 @@ WITHOUT_METHOD = {
     ("get", "/metrics"): "the same",
 }
 
-ARGUMENTS = {
+ARGUMENTS: dict[str, list[tuple[Any, ...]]] = {
     "register": [("name",)],
     "agents": [()],
     "me": [()],
@@ -57,8 +58,8 @@ ARGUMENTS = {
     "turns": [()],
     "play": [
         (ID, 1, client.Action(shot=SHOT)),
-        (ID, 1, client.Action(decision="accept_table")),
-        (ID, 1, client.Action(decision="concede")),
+        (ID, 1, client.Action(decision=client.Decision.ACCEPT_TABLE)),
+        (ID, 1, client.Action(decision=client.Decision.CONCEDE)),
     ],
     "forfeit": [(ID, 0)],
     "clock": [(ID,)],
@@ -68,6 +69,9 @@ ARGUMENTS = {
     "simulate": [(*SCENE, SHOT)],
     "simulate_batch": [(*SCENE, [SHOT])],
     "min_elevation": [(*SCENE, 270.0)],
+    "tables": [()],
+    "table": [(ID,)],
+    "describe_table": [(TABLE,)],
 }
 """How each method is called, once for each operation it stands for."""
 

@@ -1,6 +1,8 @@
 """What is sent, what is sent again, and what is raised: both clients against scripted answers."""
 
 import json
+from itertools import repeat
+from typing import Any
 
 import httpx2
 import pytest
@@ -10,7 +12,7 @@ import physics
 from client import errors
 from protocol import Problem, ProblemCode
 
-AGENTS = {"agents": [], "next_cursor": None}
+AGENTS: dict[str, Any] = {"agents": [], "next_cursor": None}
 
 
 def problem(status: int, code: ProblemCode, **headers: str) -> httpx2.Response:
@@ -110,7 +112,7 @@ def test_pauses_double_up_to_their_limit_and_never_exceed_it(make, script, pause
 
 def test_jitter_shortens_a_pause_by_up_to_half():
     error = errors.ConnectionFailed("GET", "/", "refused")
-    pauses = [client.Retry(first_pause=1.0, uniform=lambda u=u: u).pause(1, error) for u in (0.0, 0.5, 1.0)]
+    pauses = [client.Retry(first_pause=1.0, uniform=repeat(u).__next__).pause(1, error) for u in (0.0, 0.5, 1.0)]
     assert pauses == [1.0, 0.75, 0.5]
 
 
@@ -189,8 +191,8 @@ def test_a_long_poll_has_time_to_be_answered(make, script):
                 "cue_ball": None,
             },
         ),
-        (client.Action(decision="accept_table"), "decisions", {"decision": "accept_table"}),
-        (client.Action(decision="concede"), "concede", None),
+        (client.Action(decision=client.Decision.ACCEPT_TABLE), "decisions", {"decision": "accept_table"}),
+        (client.Action(decision=client.Decision.CONCEDE), "concede", None),
     ],
     ids=["shot", "decision", "concede"],
 )

@@ -2,6 +2,7 @@
 
 import logging
 import traceback
+from typing import Any
 
 import pytest
 
@@ -14,7 +15,7 @@ from client.session import AgentSession
 from referee import EightBall, MatchSeed, NoiseModel
 from referee.record import verify_record
 
-CONCEDE = client.Action(decision="concede")
+CONCEDE = client.Action(decision=client.Decision.CONCEDE)
 
 
 class Conceding(client.Agent):
@@ -99,7 +100,7 @@ def test_an_agent_that_cannot_be_made_ends_the_match_before_it_begins(strict):
         def __init__(self):
             raise FileNotFoundError("model.bin")
 
-    strokes = []
+    strokes: list[Any] = []
     for pair in ((NoModel, "random"), ("random", NoModel)):
         with pytest.raises(AgentUnstartable, match=r"cannot be made: FileNotFoundError: model.bin") as caught:
             client.play(*pair, seed=2, strict=strict, on_stroke=strokes.append)
@@ -193,7 +194,7 @@ def test_the_seed_of_noise_that_is_not_told_is_in_no_message(told):
 
     def concede(view):
         seen.append(view)
-        return client.Action(decision="concede")
+        return client.Action(decision=client.Decision.CONCEDE)
 
     rules, noise = EightBall(physics.Table.olympiad()), NoiseModel(2.0, told)
     game = play_game(rules, (concede, concede), MatchSeed.of(3).game(0), noise)
@@ -204,7 +205,7 @@ def test_the_seed_of_noise_that_is_not_told_is_in_no_message(told):
 
 def test_noise_and_table_are_those_asked_for():
     table = physics.Table.olympiad().replace(mu_slide=0.25)
-    strokes = []
+    strokes: list[Any] = []
     match = client.play("random", "random", seed=6, noise=0.0, table=table, on_stroke=strokes.append)
     assert match.games[0].header.terms.rules.table == table
     shots = [stroke for stroke in strokes if stroke.shot is not None]

@@ -2,12 +2,14 @@
 
 import itertools
 from dataclasses import dataclass, field
+from typing import Any
 
 import pytest
 from support.players import Potter
 
 from client.local_game import TRIES, BadAnswer, Lost, Watch, play_game, play_match, points_of
 from physics import Shot, Table
+from protocol import View
 from referee.game import Action, EndReason, Outcome
 from referee.play import MatchSeed, NoiseModel
 from referee.play.clock import Timing
@@ -24,7 +26,7 @@ class Spy:
     """A player that keeps the views it was shown."""
 
     player: Potter
-    views: list = field(default_factory=list)
+    views: list[View] = field(default_factory=list)
 
     def __call__(self, view):
         self.views.append(view)
@@ -105,7 +107,7 @@ def test_the_level_is_shown_only_when_told():
 
 @pytest.mark.parametrize(("player", "reason"), [(raises, RuntimeError), (nonsense, BadAnswer), (refused, Refused)])
 def test_bad_actions_are_told_tried_again_and_in_the_end_forfeit_the_game(player, reason):
-    bad = []
+    bad: list[Any] = []
     game = game_of(player, Potter("b"), watch=Watch(on_refusal=bad.append))
     assert game.outcome == Outcome(1, EndReason.FORFEIT, "R48")
     assert game.strokes == ()
@@ -184,7 +186,7 @@ def test_a_player_who_is_out_loses_for_its_own_reason(reason):
 
 
 def test_the_lines_told_as_they_happen_are_the_record():
-    lines = []
+    lines: list[str] = []
     game = game_of(Potter("a"), Potter("b"), watch=Watch(on_line=lines.append), match="m", game="g")
     assert [*lines, *game.last_lines(line_digest(lines[-1]))] == list(game.record())
     assert (game.header.terms.match, game.header.game) == ("m", "g")

@@ -1,6 +1,7 @@
 """Child processes of a command, and what they wrote."""
 
 import sys
+from typing import Any
 
 import httpx2
 
@@ -8,7 +9,7 @@ from client.cli import embedded
 from client.cli.processes import Child, children
 
 
-def run(log, words: str) -> Child:
+def run(log: Any, words: str) -> Child:
     child = Child("talker", [sys.executable, "-c", f"print({words!r})"], log, {})
     assert child.wait(60) == 0
     return child

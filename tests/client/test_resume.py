@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 import time
+from typing import Any
 
 import pytest
 
@@ -45,13 +46,15 @@ def mortal(server_installed, tmp_path):
     server.end(signal.SIGKILL)
 
 
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM], ids=["killed", "stopped"])
+@pytest.mark.parametrize(
+    "number", [signal.SIGKILL, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)], ids=["killed", "stopped"]
+)
 def test_a_match_goes_on_after_the_server_went_down(mortal, number):
     with client.Pooliad(mortal.url, ORGANISER) as organiser:
         entries = [organiser.register(f"player {seat}") for seat in (0, 1)]
         agents = (entries[0].agent.id, entries[1].agent.id)
         match = organiser.create_match(MatchRequest(agents=agents, seed="7" * 64))
-        overs = [None, None]
+        overs: list[Any] = [None, None]
 
         def play(seat):
             overs[seat] = run_agent(client.load("random", seed=seat), mortal.url, entries[seat].token)

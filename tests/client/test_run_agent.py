@@ -2,7 +2,7 @@
 
 import logging
 import threading
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import httpx2
 import pytest
@@ -13,7 +13,7 @@ from client.run import run_agent
 from protocol import TURN_MESSAGE, MatchOver
 
 BREAK = client.Action(shot=physics.Shot(9.0, 270.0, 5.0), cue_ball=(0.558, 1.75))
-CONCEDE = client.Action(decision="concede")
+CONCEDE = client.Action(decision=client.Decision.CONCEDE)
 
 
 class Conceding(client.Agent):
@@ -26,10 +26,10 @@ class Conceding(client.Agent):
 class Diary(client.Agent):
     """Breaks where it can, gives up where it cannot, and keeps what it was told."""
 
-    seen: ClassVar[list] = []
+    seen: ClassVar[list[Any]] = []
 
     def __init__(self):
-        self.mine = []
+        self.mine: list[Any] = []
         self.seen.append(self.mine)
 
     def game_started(self, view):
@@ -159,7 +159,10 @@ def test_a_stroke_whose_reply_is_lost_is_played_once(hall):
 
     def loses(request, _response):
         key = request.headers.get("Idempotency-Key")
-        return key is not None and key not in first_tries and not first_tries.add(key)
+        if key is None or key in first_tries:
+            return False
+        first_tries.add(key)
+        return True
 
     Diary.seen = []
     network = Losing(loses)
@@ -192,7 +195,7 @@ def test_old_news_does_not_end_the_next_match(hall):
     old = hall.match(*entries)
     hall.organiser.abort(old.id)
     new = hall.match(*entries, seed=80)
-    overs = [None, None]
+    overs: list[Any] = [None, None]
 
     def play(seat):
         overs[seat] = run_agent(Conceding, hall.url, entries[seat].token)

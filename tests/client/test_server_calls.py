@@ -127,7 +127,7 @@ def test_conceding_ends_the_game_and_reveals_the_record(make, hall, pair):
     api = make(hall.url, first.token)
     with pytest.raises(errors.GameUnfinished):
         api.record(view.game)
-    api.play(view.game, view.version, client.Action(decision="concede"))
+    api.play(view.game, view.version, client.Action(decision=client.Decision.CONCEDE))
     with pytest.raises(errors.GameFinished):
         api.play(view.game, view.version, LEGAL_BREAK)
     assert api.record(view.game).count(b"\n") >= 2
@@ -159,6 +159,6 @@ def test_a_long_poll_returns_when_the_turn_comes(make, hall, pair):
     waiting = threading.Thread(target=lambda: answers.append(make(hall.url, second.token).turns(20)))
     waiting.start()
     with Pooliad(hall.url, first.token) as mover:
-        mover.play(view.game, view.version, client.Action(decision="concede"))
+        mover.play(view.game, view.version, client.Action(decision=client.Decision.CONCEDE))
     waiting.join(15)
     assert isinstance(answers[0], GameOver)

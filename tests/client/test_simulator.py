@@ -1,6 +1,7 @@
 """`Agent.simulator`: the physics counted against the game's budget (docs/agents.md)."""
 
 import inspect
+from typing import Any
 
 import pytest
 
@@ -12,7 +13,7 @@ TABLE = physics.Table.olympiad()
 STATE = physics.TableState.from_positions({0: (0.5, 1.7), 3: (0.4, 0.6)})
 SHOT = physics.Shot(2.0, 260.0, 10.0)
 ROW = [[2.0, 260.0, 10.0, 0.0, 0.0]]
-CONCEDE = client.Action(decision="concede")
+CONCEDE = client.Action(decision=client.Decision.CONCEDE)
 
 
 def test_it_answers_as_the_physics_does():
@@ -36,7 +37,7 @@ def agent_that(*, simulates, seen):
 
 
 def test_a_local_game_counts_and_tells():
-    seen = []
+    seen: list[Any] = []
     match = client.play(agent_that(simulates=4, seen=seen), "random", games=2, seed=1, simulations=10)
     mine = [game.simulated[0] for game in match.games if game.simulated[0]]
     assert seen == [10] * len(seen)

@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from typing import Any
 
 import pytest
 
@@ -19,11 +20,11 @@ POSITION = {"balls": {"0": [0.5, 1.7], "3": [0.4, 0.6], "8": [0.9, 0.4]}}
 class Conceding(client.Agent):
     """Gives up at once, and keeps where it was asked."""
 
-    seen: list
+    seen: list[Any]
 
     def choose(self, view):
         self.seen.append(view)
-        return client.Action(decision="concede")
+        return client.Action(decision=client.Decision.CONCEDE)
 
 
 @pytest.fixture(scope="module")

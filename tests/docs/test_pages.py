@@ -13,20 +13,20 @@ LANGUAGES = {"python", "bash", "text"}
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_python_blocks_run_in_order(page: str) -> None:
+def test_python_blocks_run_in_order(page):
     for block in python_blocks(PAGES[page]):
         block.evaluate()
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_every_block_says_what_it_is(page: str) -> None:
+def test_every_block_says_what_it_is(page):
     fences = re.findall(r"^```(.*)$", PAGES[page].read_text(encoding="utf-8"), re.MULTILINE)
     assert set(fences[::2]) <= LANGUAGES
     assert set(fences[1::2]) <= {""}
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_links_and_named_files_exist(page: str) -> None:
+def test_links_and_named_files_exist(page):
     """Links of Markdown, and whatever in backquotes looks like a file of the repository; NAME stands for any."""
     text = PAGES[page].read_text(encoding="utf-8")
     links = [link for link in re.findall(r"\]\(([^)#]+)", text) if "://" not in link]
@@ -36,7 +36,7 @@ def test_links_and_named_files_exist(page: str) -> None:
     assert [name for name in named if not any(ROOT.glob(name.rstrip("/").replace("NAME", "*")))] == []
 
 
-def test_every_page_is_in_the_index_and_ends_with_limits() -> None:
+def test_every_page_is_in_the_index_and_ends_with_limits():
     index = (ROOT / "README.md").read_text(encoding="utf-8")
     for page in sorted(Path("docs") / path.name for path in PAGES.values() if path.parent.name == "docs"):
         assert f"]({page})" in index, f"{page} is not in the README's index"
@@ -45,7 +45,7 @@ def test_every_page_is_in_the_index_and_ends_with_limits() -> None:
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_full_names_lead_somewhere(page: str) -> None:
+def test_full_names_lead_somewhere(page):
     """`package.module.name` in backquotes is a module, a function, a class or something of one."""
     text = PAGES[page].read_text(encoding="utf-8")
     for name in sorted(set(re.findall(r"`((?:physics|referee|tournament|protocol|server|client)(?:\.\w+)+)", text))):

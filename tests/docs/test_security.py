@@ -21,7 +21,7 @@ def rows() -> list[tuple[str, list[str]]]:
     return [row for row in found if row[0] not in ("attack", "---")]
 
 
-def test_every_attack_names_tests_and_every_test_exists() -> None:
+def test_every_attack_names_tests_and_every_test_exists():
     paths = (ROOT / "tests").rglob("test_*.py")
     there = {f"{path.stem}.{function}" for path in paths for function in functions(path)}
     assert len(rows()) > 50
@@ -30,7 +30,7 @@ def test_every_attack_names_tests_and_every_test_exists() -> None:
         assert set(tests) <= there, f"{attack}: there is no {set(tests) - there}"
 
 
-def test_the_attacks_of_the_issue_are_there() -> None:
+def test_the_attacks_of_the_issue_are_there():
     """Each thing that beat the historical server, and what its successors would try."""
     text = PAGE.read_text(encoding="utf-8")
     for attack in (

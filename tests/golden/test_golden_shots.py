@@ -14,7 +14,13 @@ import pytest
 from support.bits import digest, plays
 from support.require import ROOT, require
 
-GOLDEN = dict(reversed(line.split("  ", 1)) for line in Path(__file__).with_name("shots.txt").read_text().splitlines())
+
+def by_name(text):
+    """The hash of each scene, from lines of a hash and a name."""
+    return {name: digest for digest, name in (line.split("  ", 1) for line in text.splitlines())}
+
+
+GOLDEN = by_name(Path(__file__).with_name("shots.txt").read_text())
 PLAYS = {play[0]: play for play in plays()}
 
 
@@ -24,7 +30,7 @@ def in_another_process(**environment: str) -> dict[str, str]:
     done = subprocess.run(
         [sys.executable, "-m", "support.bits"], env=settings, capture_output=True, text=True, check=True, cwd=ROOT
     )
-    return dict(reversed(line.split("  ", 1)) for line in done.stdout.splitlines())
+    return by_name(done.stdout)
 
 
 def test_every_scene_is_recorded():

@@ -106,7 +106,7 @@ class Image:
 
 
 @pytest.fixture(scope="module")
-def image(new_environment, tmp_path_factory: pytest.TempPathFactory) -> Image:
+def image(new_environment: Any, tmp_path_factory: pytest.TempPathFactory) -> Image:
     """The image, built."""
     require(platform.machine() == "x86_64", "an x86-64 processor, which the image is for")
     made = Image(tmp_path_factory.mktemp("image"), new_environment("container"))
@@ -148,7 +148,7 @@ def ask(url: str, body: object = None, token: str = "") -> Any:
             time.sleep(0.1)
 
 
-def test_it_is_slim_and_does_not_run_as_root() -> None:
+def test_it_is_slim_and_does_not_run_as_root():
     (base,) = {rest.split()[0] for name, rest in INSTRUCTIONS if name == "FROM"}
     assert re.fullmatch(r"python:3\.\d+\.\d+-slim-[a-z]+", base), "a version, not what it is today"
     assert int(only("USER").partition(":")[0]) > 0
@@ -156,7 +156,7 @@ def test_it_is_slim_and_does_not_run_as_root() -> None:
     assert names.index("USER") < names.index("CMD")
 
 
-def test_the_build_context_has_what_every_copy_needs() -> None:
+def test_the_build_context_has_what_every_copy_needs():
     """Seen: `.dockerignore` left out tournament/, and no image could be built."""
     copies = [rest.split()[:-1] for name, rest in INSTRUCTIONS if name == "COPY" and not rest.startswith("--from")]
     sources = [source for words in copies for source in words]
@@ -169,14 +169,14 @@ def test_the_build_context_has_what_every_copy_needs() -> None:
     assert set(packages["packages"]) <= set(sources), "what the wheel is made of is copied"
 
 
-def test_the_build_context_has_nothing_else() -> None:
+def test_the_build_context_has_nothing_else():
     """No token, no database and no environment that lies in the checkout gets into an image."""
     copied = {source for name, rest in INSTRUCTIONS if name == "COPY" for source in rest.split()[:-1]}
     docker_needs = {"Dockerfile", ".dockerignore"}
     assert {name.partition("/")[0] for name in context_files()} - docker_needs <= copied
 
 
-def test_the_image_installs_from_the_lock_alone() -> None:
+def test_the_image_installs_from_the_lock_alone():
     installs = [rest for name, rest in INSTRUCTIONS if name == "RUN" and "pip " in rest]
     assert len(installs) == 4
     for command in installs:
@@ -184,7 +184,8 @@ def test_the_image_installs_from_the_lock_alone() -> None:
     assert not [rest for rest in installs if "pip wheel" in rest and "--no-build-isolation" not in rest]
 
 
-def test_the_health_check_answers(image: Image, url: str) -> None:
+@pytest.mark.slow
+def test_the_health_check_answers(image, url):
     assert ask(f"{url}/healthz") == {"status": "ok"}
     check = json.loads(only("HEALTHCHECK").partition("CMD ")[2])
     check = [word.replace("http://127.0.0.1:8080", url) for word in check]
@@ -192,7 +193,7 @@ def test_the_health_check_answers(image: Image, url: str) -> None:
     assert image.python.run([word.replace("healthz", "nothing") for word in check]).returncode != 0
 
 
-def test_the_server_compiles_nothing_any_more(image: Image, url: str) -> None:
+def test_the_server_compiles_nothing_any_more(image, url):
     """The cache was warmed at build; every way into the kernels finds it."""
     before = image.compiled()
     assert before
@@ -206,7 +207,7 @@ def test_the_server_compiles_nothing_any_more(image: Image, url: str) -> None:
     assert image.compiled() == before
 
 
-def test_the_kernels_are_for_no_processor_in_particular(image: Image) -> None:
+def test_the_kernels_are_for_no_processor_in_particular(image):
     """Built on one machine, the image runs on another: numba looks its cache up by processor and features."""
     indices = [Path(name) for name in image.compiled() if name.endswith(".nbi")]
     assert indices
@@ -216,7 +217,7 @@ def test_the_kernels_are_for_no_processor_in_particular(image: Image) -> None:
         assert b"+avx" not in content
 
 
-def test_games_are_kept_in_the_volume(image: Image, url: str) -> None:
+def test_games_are_kept_in_the_volume(image, url):
     ask(f"{url}/readyz")
     assert only("VOLUME") == "/data"
     assert (image.root / "data" / "pooliad.db").is_file()

@@ -111,7 +111,7 @@ def test_everything_is_pinned_by_hash_and_nothing_names_an_index(lock):
 
 def test_the_locks_agree():
     """CI tests what the image runs."""
-    versions = {}
+    versions: dict[str, str] = {}
     for name, (version, _) in chain.from_iterable(pins(lock).items() for lock in WANTED):
         assert versions.setdefault(name, version) == version, name
     assert set(pins("server")) | set(pins("build")) <= set(pins("test"))

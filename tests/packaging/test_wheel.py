@@ -3,17 +3,16 @@
 import json
 import shutil
 import zipfile
-from pathlib import Path
 
 import pytest
 from support.documents import PAGES, python_blocks
 from support.require import ROOT
 
-PACKAGES = ("physics", "referee", "tournament", "protocol", "server", "client")
+PACKAGES = ("physics", "pictures", "referee", "tournament", "protocol", "server", "client")
 BY_THE_RULES = {"R42", "R43", "R44", "R45", "R46"}
 
 
-def test_the_wheel_holds_the_packages_and_nothing_else(wheel: Path) -> None:
+def test_the_wheel_holds_the_packages_and_nothing_else(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = set(archive.namelist())
     assert {name.split("/")[0] for name in names if ".dist-info/" not in name} == set(PACKAGES)
@@ -26,13 +25,15 @@ def test_the_wheel_holds_the_packages_and_nothing_else(wheel: Path) -> None:
     assert {"server/web/index.html", "server/web/main.js"} <= page <= names
 
 
-def test_the_base_install_has_everything_but_the_server(without_server) -> None:
+@pytest.mark.slow
+def test_the_base_install_has_everything_but_the_server(without_server):
     imports = without_server["imports"]
     assert imports.stdout.splitlines() == ["[]", "{True}"], imports.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["serve", "demo"])
-def test_without_the_extra_a_command_names_what_installs_it(without_server, command: str) -> None:
+def test_without_the_extra_a_command_names_what_installs_it(without_server, command):
     """At once: nothing is compiled for a demo that cannot be."""
     done = without_server[command]
     assert done.returncode == 1
@@ -40,26 +41,29 @@ def test_without_the_extra_a_command_names_what_installs_it(without_server, comm
     assert "pip install 'pooliad[server]'" in line
 
 
-def test_the_base_install_plays_without_a_server(without_server) -> None:
+@pytest.mark.slow
+def test_the_base_install_plays_without_a_server(without_server):
     played = without_server["play"]
     assert played.returncode == 0, played.stderr
     assert played.stdout.strip()
 
 
 @pytest.fixture(scope="module")
-def demo(complete) -> dict:
+def demo(complete):
     """The account of a demo from the wheel: a real server, two agent processes, a whole match."""
     return json.loads(complete.must(["pooliad", "demo", "--seed", "4", "--out", "demo-4", "--json"]))
 
 
-def test_a_demo_from_the_wheel_ends_by_the_rules(demo: dict) -> None:
+@pytest.mark.slow
+def test_a_demo_from_the_wheel_ends_by_the_rules(demo):
     assert demo["status"] == "finished"
     (game,) = demo["games"]
     assert game["winner"] in demo["agents"]
     assert game["rule"] in BY_THE_RULES
 
 
-def test_the_record_verifies_with_nothing_but_the_file(demo: dict, complete, tmp_path: Path) -> None:
+@pytest.mark.slow
+def test_the_record_verifies_with_nothing_but_the_file(demo, complete, tmp_path):
     """By a fresh process, the demo's database out of its sight; and not when a digit is changed."""
     (game,) = demo["games"]
     alone = tmp_path / "alone.jsonl"
@@ -76,7 +80,8 @@ def test_the_record_verifies_with_nothing_but_the_file(demo: dict, complete, tmp
     assert json.loads(done.stdout)["verdict"] == "different"
 
 
-def test_an_agent_of_ones_own_is_found_where_one_stands(complete) -> None:
+@pytest.mark.slow
+def test_an_agent_of_ones_own_is_found_where_one_stands(complete):
     """Seen: the documented `--agents straight:Straight` was not found by the installed command, and a folder called
     server beside it was taken for the server.
     """

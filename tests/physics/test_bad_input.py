@@ -35,8 +35,8 @@ CASES: dict[str, tuple[type[PhysicsError], Callable[[], object]]] = {
     "shot, unknown parameter": (InvalidShot, lambda: Shot(1, 2).replace(x=1)),
     "check of a tuple": (InvalidShot, lambda: physics.check(TABLE, STATE, (1, 2, 3, 4, 5))),  # type: ignore[arg-type]
     "state, text": (InvalidState, lambda: TableState.from_positions("abc")),
-    "state, ragged": (InvalidState, lambda: TableState.from_positions([[1.0], [2.0, 3.0]])),  # type: ignore[list-item]
-    "state, no mapping": (InvalidState, lambda: TableState.from_dict(None)),  # type: ignore[arg-type]
+    "state, ragged": (InvalidState, lambda: TableState.from_positions([[1.0], [2.0, 3.0]])),
+    "state, no mapping": (InvalidState, lambda: TableState.from_dict(None)),
     "state, ball 03": (InvalidState, lambda: TableState.from_dict({"03": [0.5, 0.5]})),
     "no cue ball to raise": (InvalidState, lambda: physics.min_elevation(TABLE, STATE.removed(0), 0.0)),
     "contact, text": (PhysicsError, lambda: physics.contact_time("ab", (0, 0), (0, 0), 1.0)),
@@ -59,7 +59,7 @@ CASES: dict[str, tuple[type[PhysicsError], Callable[[], object]]] = {
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_refused_by_name(case: str) -> None:
+def test_refused_by_name(case):
     kind, call = CASES[case]
     with pytest.raises(kind) as caught:
         call()
@@ -69,12 +69,12 @@ def test_refused_by_name(case: str) -> None:
 
 
 @pytest.mark.parametrize("counters", [np.zeros((1, 4), np.int64), np.zeros((5, 2), np.int64), np.zeros((5, 4))])
-def test_counters_of_another_kind_are_refused(counters: Any) -> None:
+def test_counters_of_another_kind_are_refused(counters):
     """Kernels write there without looking: a wrong shape was heap corruption."""
     with pytest.raises(ValueError, match="counters"):
         physics.simulate_batch(TABLE, STATE, np.ones((5, 5)), counters=counters)
 
 
-def test_an_empty_batch_is_a_batch() -> None:
+def test_an_empty_batch_is_a_batch():
     assert len(physics.simulate_batch(TABLE, STATE, np.empty((0, 5)))) == 0
     assert len(physics.simulate_batch(TABLE, np.empty((0, 16, 2)), np.empty((0, 5)))) == 0

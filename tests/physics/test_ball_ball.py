@@ -16,7 +16,12 @@ TABLE = physics.Table.olympiad()
 SMOOTH = TABLE.replace(mu_ball=0.0)
 
 
-def meeting(lean: float, speed: float = 2.0, spin=(0.0, 0.0, 0.0), gap: float = 1e-9):
+Spin = tuple[float, float, float]
+
+
+def meeting(
+    lean: float, speed: float = 2.0, spin: Spin = (0.0, 0.0, 0.0), gap: float = 1e-9
+) -> tuple[dict[int, Launch], tuple[float, float]]:
     """Ball 1 at rest; ball 0 about to hit it, coming along +x, its centre line leaning by ``lean`` degrees."""
     angle = math.radians(lean)
     n = (math.cos(angle), math.sin(angle))

@@ -96,34 +96,34 @@ def stopped_in_play(found: dict[str, Any]) -> None:
     assert np.isfinite(found["lying"][0]).all()
 
 
-def test_a_shot_with_too_many_events_stops_there() -> None:
+def test_a_shot_with_too_many_events_stops_there():
     found = run("STEPS_PER_EVENT", 4, "break_shot")
     assert found["ended"] == at.OUT_OF_EVENTS
     assert 20 <= found["n_events"] < 20 + 16  # an instant is finished once it is begun
     stopped_in_play(found)
 
 
-def test_a_shot_with_too_many_steps_stops_there() -> None:
+def test_a_shot_with_too_many_steps_stops_there():
     """A step is an event or a look again: with no step allowed none is taken."""
     found = run("STEPS_PER_EVENT", 0, "break_shot")
     assert found["ended"] == at.OUT_OF_STEPS
     stopped_in_play(found)
 
 
-def test_an_instant_with_too_many_rounds_ends_the_shot() -> None:
+def test_an_instant_with_too_many_rounds_ends_the_shot():
     found = run("ROUND_LIMIT", 2, "cradle")
     assert found["ended"] == at.OUT_OF_ROUNDS
     stopped_in_play(found)
 
 
-def test_a_strike_with_too_many_rounds_ends_the_shot() -> None:
+def test_a_strike_with_too_many_rounds_ends_the_shot():
     found = run("ROUND_LIMIT", 1, "struck_cluster")
     assert found["ended"] == at.OUT_OF_ROUNDS
     assert found["duration"] == 0.0
     stopped_in_play(found)
 
 
-def test_without_a_lowered_cap_the_same_shots_come_to_rest() -> None:
+def test_without_a_lowered_cap_the_same_shots_come_to_rest():
     for task in ("cradle", "struck_cluster"):
         found = run("STEPS_PER_EVENT", 4, task)
         assert (found["ended"], found["status"]) == (at.NOTHING_TO_COME, "AT_REST")
@@ -133,7 +133,7 @@ GRAZE = (0.3, 2 * R - 1e-13, -1.0, 0.0, 1e-3, 0.0, 5.0, 5.0)
 """A curved path that passes at a depth of 1e-13 m."""
 
 
-def test_the_solver_out_of_steps_takes_the_contact_where_it_stands() -> None:
+def test_the_solver_out_of_steps_takes_the_contact_where_it_stands():
     """At the cap of 200 the gap is far below TOUCH; a graze takes up to 40 steps, so the cap is lowered to 4."""
     time, exit_ = run("SOLVER_STEPS", 4, "solve", *GRAZE)
     assert named(exit_) == "OUT_OF_STEPS"
@@ -145,7 +145,7 @@ RESTING_ON_EACH_OTHER = (2 * R, 0.0, 0.0, 1e-3, -1e-3, 0.0, 5.0, 5.0)
 """Touching, moving aside and pressed together: they part by the curve of their paths and meet again."""
 
 
-def test_newtons_steps_back_from_a_deeper_contact_have_an_end() -> None:
+def test_newtons_steps_back_from_a_deeper_contact_have_an_end():
     deeper, exit_ = run("SETTLED_STEPS", 0, "solve", *RESTING_ON_EACH_OTHER)
     assert named(exit_) == "DEEPER_ONLY"
     met, exit_ = run("SETTLED_STEPS", 8, "solve", *RESTING_ON_EACH_OTHER)
@@ -164,7 +164,7 @@ def test_newtons_steps_back_from_a_deeper_contact_have_an_end() -> None:
     ],
     ids=["touching", "meets", "leaves", "later", "a step below the last place of t"],
 )
-def test_every_exit_of_the_solver(numbers: tuple[float, ...], expected: str, time: float) -> None:
+def test_every_exit_of_the_solver(numbers, expected, time):
     found, exit_ = run("SOLVER_STEPS", 200, "solve", *numbers)
     assert named(exit_) == expected
     assert found == pytest.approx(time, rel=1e-12, nan_ok=True)

@@ -15,9 +15,10 @@ PARTING = 0.2 * 9.81 * 1e-3
 """m/s; the fastest opening the rule gives: sliding friction on both balls, A tau / 2 = mu_slide g tau."""
 
 
-def triangle(rows: int = 5, apex=(0.558, 0.559)):
+def triangle(rows: int = 5, apex: tuple[float, float] = (0.558, 0.559)) -> dict[int, tuple[float, float]]:
     """Exactly touching, apex towards +y."""
-    step, balls = 2 * R, {}
+    step = 2 * R
+    balls: dict[int, tuple[float, float]] = {}
     for row in range(rows):
         for place in range(row + 1):
             balls[len(balls) + 1] = (apex[0] + (place - row / 2) * step, apex[1] - row * step * math.sqrt(0.75))

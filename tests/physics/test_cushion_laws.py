@@ -3,6 +3,7 @@
 import itertools
 import json
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,13 +41,13 @@ def by_mathavan(v, w):
     return mathavan(R, v, w, EAST, 0.98, 0.14, 0.212)
 
 
-def rolling(speed: float, degrees: float = 0.0, w_z: float = 0.0):
+def rolling(speed: float, degrees: float = 0.0, w_z: float = 0.0) -> tuple[Any, Any]:
     """Natural roll towards the east cushion, ``degrees`` off its normal."""
     v = speed * math.cos(math.radians(degrees)), speed * math.sin(math.radians(degrees))
     return v, (-v[1] / R, v[0] / R, w_z)
 
 
-def out_angle(v) -> float:
+def out_angle(v: Any) -> float:
     return math.degrees(math.atan2(v[1], -v[0]))
 
 
@@ -55,7 +56,7 @@ def rolls_on(v, w):
     return v[0] - 2 / 7 * (v[0] - R * w[1]), v[1] - 2 / 7 * (v[1] + R * w[0])
 
 
-def energy(v, w) -> float:
+def energy(v: Any, w: Any) -> float:
     return 0.5 * sum(x * x for x in v) + 0.2 * R * R * sum(x * x for x in w)
 
 

@@ -4,10 +4,8 @@ import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import numpy as np
-import pytest
 
 import physics
 from physics import engine, facts, status
@@ -38,7 +36,7 @@ def run_shot(**environment: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def test_sizes_are_those_of_the_layout() -> None:
+def test_sizes_are_those_of_the_layout():
     assert engine.workspace().shape == (1, layout.W_SIZE + layout.K_SIZE)
     assert parameters(physics.Table.olympiad()).shape == (1, layout.P_SIZE)
     assert facts.FACTS_DTYPE.itemsize == 4 * layout.FACTS_WIDTH
@@ -47,7 +45,7 @@ def test_sizes_are_those_of_the_layout() -> None:
     assert parameters(physics.Table.nine_foot()).shape == (1, layout.P_REAL_SIZE)
 
 
-def test_no_two_quantities_share_a_place() -> None:
+def test_no_two_quantities_share_a_place():
     """Rows of 16 lanes and lists of 120 pairs follow one another; a state's columns and a trace row's too."""
     rows = ROWS.split()
     lists = ("CLOSING", "NORMAL_X", "NORMAL_Y")
@@ -59,8 +57,8 @@ def test_no_two_quantities_share_a_place() -> None:
     assert layout.TRACE_WIDTH == layout.T_FIRST + 2 * layout.STATE_WIDTH
 
 
-def test_facts_lie_where_kernels_write_them() -> None:
-    offsets = {name: offset // 4 for name, (_, offset) in facts.FACTS_DTYPE.fields.items()}
+def test_facts_lie_where_kernels_write_them():
+    offsets = {name: offset // 4 for name, (_, offset, *_) in facts.FACTS_DTYPE.fields.items()}
     places = {
         "status": layout.F_STATUS,
         "n_events": layout.F_EVENTS,
@@ -81,7 +79,7 @@ def test_facts_lie_where_kernels_write_them() -> None:
     assert offsets == places
 
 
-def test_numbers_of_states_kinds_and_statuses_are_those_of_the_layout() -> None:
+def test_numbers_of_states_kinds_and_statuses_are_those_of_the_layout():
     for motion in Motion:
         assert getattr(layout, motion.name) == motion
     for number, kind in enumerate(KINDS):
@@ -91,7 +89,7 @@ def test_numbers_of_states_kinds_and_statuses_are_those_of_the_layout() -> None:
         assert getattr(layout, each.name) == each
 
 
-def test_recorded_numbers_stay() -> None:
+def test_recorded_numbers_stay():
     """Records and answers of version 0.1.0 hold these: a new one is appended."""
     assert [motion.name for motion in Motion] == ["STATIONARY", "SPINNING", "SLIDING", "ROLLING", "POCKETED", "ABSENT"]
     assert [each.name for each in status.Status] == (
@@ -102,7 +100,7 @@ def test_recorded_numbers_stay() -> None:
     assert tuple(names) == POCKET_NAMES
 
 
-def test_a_workspace_is_no_other_threads() -> None:
+def test_a_workspace_is_no_other_threads():
     """Kernels address memory by pointer: two threads' workspaces must not share any (found as heap corruption)."""
     with ThreadPoolExecutor(1) as other:
         first, second = engine.workspace(), other.submit(engine.workspace).result()
@@ -110,14 +108,14 @@ def test_a_workspace_is_no_other_threads() -> None:
     assert not np.shares_memory(first, second)
 
 
-def test_the_cache_folder_is_named_by_the_kernels(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_the_cache_folder_is_named_by_the_kernels(monkeypatch, tmp_path):
     monkeypatch.setenv(engine.CACHE_VARIABLE, str(tmp_path))
     folder = engine.cache_folder()
     assert folder == tmp_path / "pooliad" / f"kernels-{engine.digest()[:16]}"
     assert folder.is_dir()
 
 
-def test_an_edited_kernel_has_another_digest(tmp_path: Path) -> None:
+def test_an_edited_kernel_has_another_digest(tmp_path):
     """A stale compiled cache is impossible: the folder's name holds every byte of the kernels."""
     sources = tmp_path / "kernels"
     sources.mkdir()
@@ -127,9 +125,21 @@ def test_an_edited_kernel_has_another_digest(tmp_path: Path) -> None:
     assert engine.digest_of(sources) != before
 
 
-def test_no_home_and_nothing_writable_is_no_error(tmp_path: Path) -> None:
+def test_no_home_and_nothing_writable_is_no_error(tmp_path):
     unwritable = tmp_path / "file"
     unwritable.write_text("not a folder")
     usual = run_shot()
     lost = run_shot(HOME=str(unwritable), XDG_CACHE_HOME=str(unwritable), POOLIAD_CACHE_DIR=str(unwritable))
     assert lost.stdout == usual.stdout
+
+
+def test_compiling_is_announced_for_what_is_not_kept_yet(tmp_path, capsys):
+    """Kernels of straight mouths that are kept say nothing about those with jaws."""
+    (tmp_path / "kernels_0").mkdir()
+    (tmp_path / "kernels_0" / "entries.simulate_rows-24.py311.nbi").touch()
+    engine.say_if_compiled_now(tmp_path, "entries", "the physics")
+    assert capsys.readouterr().err == ""
+    engine.say_if_compiled_now(tmp_path, "entries_real", "the physics of tables with jaws")
+    assert "compiling the physics of tables with jaws" in capsys.readouterr().err
+    engine.say_if_compiled_now(None, "entries", "the physics")
+    assert "compiling the physics for" in capsys.readouterr().err

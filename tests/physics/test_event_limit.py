@@ -29,7 +29,8 @@ def limits(n_events):
 
 
 def cut_off(play, limit, **options):
-    return physics.simulate(*play, event_limit=limit, **options)
+    table, state, shot = play
+    return physics.simulate(table, state, shot, event_limit=limit, **options)
 
 
 def fingerprint():

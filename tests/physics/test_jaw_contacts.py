@@ -2,7 +2,9 @@
 
 import json
 import math
+from collections.abc import Iterator
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +17,7 @@ from support.truth.jaws import JawTruth, first_contact
 
 import physics
 from physics.kernels.detect import jaws
-from physics.kernels.detect.jaws import Jaw
+from physics.kernels.detect.jaws import JawOutline
 from physics.kernels.path import Path
 from physics.kernels.tolerances import DEEPER
 
@@ -32,10 +34,12 @@ SHAPES = {"corner": NINE.corner_shape, "side": NINE.side_shape}
 
 def constants(mouth):
     """``jaw`` as the kernels take it."""
-    return Jaw(mouth.nose_end, mouth.horn_radius, *mouth.facing_start, *mouth.facing_normal, mouth.facing_length)
+    return JawOutline(
+        *(mouth.nose_end, mouth.horn_radius, *mouth.facing_start, *mouth.facing_normal, mouth.facing_length)
+    )
 
 
-def gap(c, b, a, t, distance) -> float:
+def gap(c: Any, b: Any, a: Any, t: Any, distance: Any) -> float:
     """Exact gap at a time, m."""
     t = Fraction(t)
     squared = sum((Fraction(x) + t * (Fraction(y) + t * Fraction(z))) ** 2 for x, y, z in zip(c, b, a, strict=True))
@@ -63,11 +67,11 @@ def test_the_reference_contacts(family):
                 assert abs(mpf(t) - mpf(case["time"])) * case["closing_speed"] <= 1e-15, case["id"]
 
 
-def answer(family, c, b, a, t_max, distance) -> float:
+def answer(family: str, c: Any, b: Any, a: Any, t_max: float, distance: float) -> float:
     """What the kernels say of a path past a horn or a drop edge."""
     if family == "drop_edge":
         return drops(Path(*c, *b, *a), distance, t_max, t_max)
-    horn = Jaw(0.0, distance - RHO, 0.0, 0.0, 0.0, 1.0, 0.0)
+    horn = JawOutline(0.0, distance - RHO, 0.0, 0.0, 0.0, 1.0, 0.0)
     return meets_horn(horn, RHO, Path(c[0], c[1] - (distance - RHO), *b, *a), t_max, t_max)
 
 
@@ -98,7 +102,7 @@ def test_hard_contacts_that_no_file_has(family, distance):
     assert met > 100
 
 
-def paths(rng: np.random.Generator, shape, n: int):
+def paths(rng: np.random.Generator, shape: Any, n: int) -> Iterator[tuple[float, ...]]:
     """Starts in and before a mouth, clear of its pieces, on curves of sliding and rolling balls."""
     made = 0
     while made < n:
@@ -132,7 +136,7 @@ def test_every_piece_agrees_with_thirty_digits(kind):
     assert met > 50
 
 
-def agree(found: float, true, speed: float) -> None:
+def agree(found: float, true: Any, speed: float) -> None:
     assert (found != found) == (true is None), (found, true)
     if true is not None:
         assert abs(found - float(true)) <= 1e-13 + 1e-14 / max(speed, 1e-3), (found, true)

@@ -33,12 +33,8 @@ def name_of(path: Path) -> str:
 
 def complaints(source: str, file: str = "") -> list[str]:
     """What a kernel's source says that it may not, by line."""
-    found = []
-    for node in ast.walk(ast.parse(source)):
-        said = forbidden(node, file)
-        if said:
-            found.append(f"{file}:{node.lineno}: {said}")
-    return found
+    nodes = ast.walk(ast.parse(source))
+    return [f"{file}:{getattr(node, 'lineno', 0)}: {said}" for node in nodes if (said := forbidden(node, file))]
 
 
 def forbidden(node: ast.AST, file: str) -> str | None:
@@ -87,7 +83,7 @@ def is_place(node: ast.BinOp | ast.AugAssign) -> bool:
 
 
 @pytest.mark.parametrize("path", KERNELS, ids=name_of)
-def test_a_kernel_says_nothing_that_differs_between_machines(path: Path) -> None:
+def test_a_kernel_says_nothing_that_differs_between_machines(path):
     assert complaints(path.read_text(encoding="utf-8"), name_of(path)) == []
 
 
@@ -99,12 +95,12 @@ def test_a_kernel_says_nothing_that_differs_between_machines(path: Path) -> None
         *("y = x % 2.0", "y = x // z", "y = a @ b", "k = numba.njit(fastmath=True)", "y = math.pow(x, 2.0)"),
     ],
 )
-def test_each_forbidden_operation_is_seen(line: str) -> None:
+def test_each_forbidden_operation_is_seen(line):
     """A rule that sees nothing would pass every kernel."""
     assert complaints(line) != []
 
 
-def test_numbers_of_columns_stand_in_the_layout_alone() -> None:
+def test_numbers_of_columns_stand_in_the_layout_alone():
     """A kernel addresses memory by a name of the layout, a loop's counter or a sum of these: never by a bare number.
 
     Pairs of coordinates (``2 * i + 1``) are the format of positions, not of the layout.
@@ -112,7 +108,8 @@ def test_numbers_of_columns_stand_in_the_layout_alone() -> None:
     found = []
     for path in KERNELS:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            call = isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
-            if call and node.func.id.startswith(("load", "store")) and isinstance(node.args[1], ast.Constant):
+            if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name):
+                continue
+            if node.func.id.startswith(("load", "store")) and isinstance(node.args[1], ast.Constant):
                 found.append(f"{name_of(path)}:{node.lineno}: {ast.unparse(node)}")
     assert found == []

@@ -17,7 +17,7 @@ from physics.kernels.resolve import cushion_laws, fixed, pair_laws
 
 R, RHO = 0.028575, 0.02751373370586951
 NOSE = -0.9628602347719864, 0.0, -0.27
-JAW = jaws.Jaw(0.083, 0.00635, 0.0791, -0.00135, -0.6156614753256583, 0.788010753606722, 0.0803)
+JAW = jaws.JawOutline(0.083, 0.00635, 0.0791, -0.00135, -0.6156614753256583, 0.788010753606722, 0.0803)
 
 
 drops, meets_facing, meets_horn = map(from_python, (jaws.drops, jaws.meets_facing, jaws.meets_horn))

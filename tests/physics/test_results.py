@@ -2,6 +2,7 @@
 
 import json
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -170,7 +171,7 @@ def test_a_batch_from_one_state():
     batch = physics.simulate_batch(OPEN, state, shots, threads=2)
     assert len(batch) == 5
     assert batch.positions.shape == (5, 16, 2)
-    assert (batch.pocket.dtype, batch.status.dtype) == (np.int8, np.int8)
+    assert batch.pocket.dtype == batch.status.dtype == np.int8
     for k, row in enumerate(shots):
         single = physics.simulate(OPEN, state, physics.Shot(*row))
         assert batch.state(k) == single.final
@@ -184,7 +185,7 @@ def test_a_batch_from_one_state():
 def test_a_batch_can_be_ended_from_outside(threads):
     state = physics.rack(OPEN, "eight_ball", seed=1)
     shots = np.array([[5.0, 200.0 + 0.5 * k, 10.0, 0.0, 0.0] for k in range(300)])
-    asked = []
+    asked: list[Any] = []
     batch = physics.simulate_batch(OPEN, state, shots, threads, check=lambda: asked.append(None))
     assert len(asked) >= 300 / 64
     assert batch.positions.tobytes() == physics.simulate_batch(OPEN, state, shots).positions.tobytes()
@@ -259,7 +260,7 @@ def test_bad_states_of_a_batch_name_the_row():
         physics.simulate_batch(OPEN, np.stack([good, good]).astype(np.float32), shots)
 
 
-def test_threads_name_the_first_of_several_bad_rows() -> None:
+def test_threads_name_the_first_of_several_bad_rows():
     states = np.repeat(STATE_1.positions[None], 200, axis=0)
     for row in (37, 120, 199):
         states[row, 4] = (0.0, 0.5)
@@ -276,9 +277,9 @@ def test_bad_thread_counts(threads):
 
 def test_wrong_kinds_of_arguments():
     with pytest.raises(physics.InvalidShot, match="Shot"):
-        physics.simulate(OPEN, STATE_1, (1.0, 2.0))
+        physics.simulate(OPEN, STATE_1, (1.0, 2.0))  # type: ignore[arg-type]
     with pytest.raises(physics.InvalidState, match="TableState"):
-        physics.simulate(OPEN, {0: (0.5, 1.0)}, physics.Shot(1.0, 2.0))
+        physics.simulate(OPEN, {0: (0.5, 1.0)}, physics.Shot(1.0, 2.0))  # type: ignore[arg-type]
 
 
 def test_chained_shots_always_start_legally():

@@ -14,7 +14,7 @@ from support.worlds import from_kernel, shot_of, world_of
 import physics
 from physics.status import Status
 
-NINE = physics.Table.nine_foot().replace(cue_test=False)
+NINE = physics.RealTable.of_size("nine_foot").replace(cue_test=False)
 R, RHO = 0.028575, NINE.contact_distance
 Position = tuple[float, float]
 LAWS = [("han", "alciatore"), ("mathavan", "alciatore"), ("factors", "consistent")]
@@ -203,7 +203,7 @@ def test_a_soft_ball_is_held_by_a_facing_and_rolls_along_it():
     s = shape.facing_start[0] - foot * nd + RHO * ns
     d = shape.facing_start[1] + foot * ns + RHO * nd
     into = (-nd, ns)
-    velocity = tuple(0.05 * a - 5e-4 * b for a, b in zip(into, (ns, nd), strict=True))
+    velocity = 0.05 * into[0] - 5e-4 * ns, 0.05 * into[1] - 5e-4 * nd
     result = let_go(NINE, {1: rolling((s, d), velocity)})
     assert "jaw_collision" not in [event.kind.value for event in result.events]
     end = result.final.position(1)

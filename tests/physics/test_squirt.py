@@ -1,6 +1,7 @@
 """The strike of a cue whose end has mass (FLIGHT, section S): squirt, its energy, and the miscue."""
 
 import math
+from typing import Any
 
 import pytest
 from hypothesis import assume, given
@@ -28,7 +29,7 @@ def hit(v=2.0, phi=0.0, theta=0.0, a=0.0, b=0.0, end=END, e_tip=1.0, mu_tip=0.6)
     return struck(R, (cos_phi, sin_phi, cos_theta, sin_theta), depth, a, b, BALL / CUE, end, e_tip, mu_tip, v)
 
 
-def squirt(**stroke) -> float:
+def squirt(**stroke: Any) -> float:
     """Degrees to the left of the aim."""
     (vx, vy, _), _, _ = hit(**stroke)
     return math.degrees(math.atan2(vy, vx))

@@ -1,6 +1,7 @@
 """The cue strike ([I], section 5; PHYSICS "Strike"): velocity and spin it gives, and the exactness of the azimuth."""
 
 import math
+from typing import Any
 
 import pytest
 from support.moving import after, first
@@ -18,7 +19,7 @@ def struck(shot: physics.Shot, table: physics.Table = OPEN) -> physics.BallState
     return after(first(result, "cue_strike"), 0)
 
 
-def formula(shot: physics.Shot, bracket_factor: float = 1.0, inertia: float = 0.4 * M * R**2):
+def formula(shot: physics.Shot, bracket_factor: float = 1.0, inertia: float = 0.4 * M * R**2) -> tuple[Any, Any]:
     """F = 2 m V / (1 + m/M + 5/(2R^2) [a^2 + (bC - cS)^2]); v = (F C/m) d; w = ..."""
     a, b, theta, phi = shot.a / 1e3, shot.b / 1e3, math.radians(shot.theta), math.radians(shot.phi)
     c, co, si = math.sqrt(R * R - a * a - b * b), math.cos(theta), math.sin(theta)

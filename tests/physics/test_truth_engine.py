@@ -69,7 +69,8 @@ def test_energy_falls_at_every_event_of_a_touching_break(seed):
 
 
 def touching_rack():
-    balls, step = {}, 2 * RADIUS
+    step = 2 * RADIUS
+    balls: dict[int, tuple[float, float]] = {}
     for row in range(5):
         for place in range(row + 1):
             balls[len(balls) + 1] = (0.558 + (place - row / 2) * step, 0.559 - row * step * 3**0.5 / 2)

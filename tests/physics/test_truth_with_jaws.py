@@ -14,7 +14,7 @@ from support.worlds import world_of
 
 import physics
 
-NINE = physics.Table.nine_foot()
+NINE = physics.RealTable.of_size("nine_foot")
 WORLD = world_of(NINE)
 
 

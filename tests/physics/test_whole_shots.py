@@ -4,6 +4,8 @@ A shot is compared up to the first event that changes when v and phi move by one
 true ones by what a few hundred such ulps do (``SHARE``), rounding inside the kernel being of that size.
 """
 
+from typing import Any
+
 import numpy as np
 import pytest
 from support.compare import Happening, lone, partners, position_error, velocity_error
@@ -28,7 +30,7 @@ CREEPING_FLOOR = 1e-10
 short, which is 1e-12 s in the millisecond until they meet."""
 
 
-def compared(table: physics.Table, positions, stroke: Stroke, **options) -> tuple[Told, list[Happening]]:
+def compared(table: physics.Table, positions: Any, stroke: Stroke, **options: Any) -> tuple[Told, list[Happening]]:
     """The stable true events, and the kernel's counterparts; fails at the first one missing."""
     truth = told(positions, stroke, world_of(table), **options)
     mine = from_kernel(run(table, positions, stroke))
@@ -43,7 +45,9 @@ def compared(table: physics.Table, positions, stroke: Stroke, **options) -> tupl
     return truth, found
 
 
-def check_agreement(table: physics.Table, positions, stroke: Stroke, *, floor: float = FLOOR, **options) -> int:
+def check_agreement(
+    table: physics.Table, positions: Any, stroke: Stroke, *, floor: float = FLOOR, **options: Any
+) -> int:
     """Same events, times and lone states to SHARE ulps; returns how many events were compared."""
     truth, found = compared(table, positions, stroke, **options)
     for k, (true, mine) in enumerate(zip(truth.events, found, strict=True)):
@@ -104,9 +108,10 @@ def test_the_historical_table():
         check_agreement(physics.Table.fastfiz(), positions, stroke_at(rng, positions))
 
 
-def rack_of(gap: float, rows: int = 5):
+def rack_of(gap: float, rows: int = 5) -> dict[int, tuple[float, float]]:
     """A triangle of balls with its apex towards the cue ball."""
-    balls, step = {}, 2 * RADIUS + gap
+    step = 2 * RADIUS + gap
+    balls: dict[int, tuple[float, float]] = {}
     for row in range(rows):
         for place in range(row + 1):
             balls[len(balls) + 1] = (0.558 + (place - row / 2) * step, 0.559 - row * step * 3**0.5 / 2)

@@ -57,7 +57,7 @@ SPINNING_IN_PLACE = Scene("frozen", {0: (RADIUS, 0.5), 1: (3 * RADIUS, 0.5)}, (0
 @example(TOUCHING_ROW, OPEN)
 @example(FROZEN_CORNER, OPEN)
 @example(SPINNING_IN_PLACE, OPEN)
-def test_no_shot_gains_energy_jumps_overlaps_or_escapes(scene: Scene, table: physics.Table):
+def test_no_shot_gains_energy_jumps_overlaps_or_escapes(scene, table):
     """Issue "physics", invariants; every event of every trace is checked by a second copy of the motions."""
     result = play(scene, table)
     assert result.status is physics.Status.AT_REST
@@ -70,7 +70,7 @@ def test_no_shot_gains_energy_jumps_overlaps_or_escapes(scene: Scene, table: phy
 
 @settings(max_examples=200)
 @given(scenes(), tables)
-def test_every_shot_ends_in_a_legal_start(scene: Scene, table: physics.Table):
+def test_every_shot_ends_in_a_legal_start(scene, table):
     """The final table is accepted as it is, also after JSON, and holds the balls that were not pocketed."""
     result = play(scene, table)
     again = physics.TableState.from_dict(result.final.to_dict())
@@ -85,7 +85,7 @@ def test_every_shot_ends_in_a_legal_start(scene: Scene, table: physics.Table):
 
 @settings(max_examples=150)
 @given(scenes(), st.lists(st.floats(0.0, 1.0), min_size=3, max_size=3))
-def test_balls_are_apart_and_inside_at_any_time(scene: Scene, fractions: list[float]):
+def test_balls_are_apart_and_inside_at_any_time(scene, fractions):
     result = play(scene)
     for fraction in fractions:
         snapshot = result.at(fraction * result.duration)

@@ -1,13 +1,14 @@
 """``result.at``, ``resume``, traces and batches: other ways to the same shot."""
 
 import math
+from typing import Any
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.audit import instants, moved, resting
 from support.play import OPEN, apart, joint, play, sensitivity, state_of
-from support.scenes import RADIUS, Scene, scenes
+from support.scenes import RADIUS, scenes
 
 import physics
 
@@ -23,7 +24,7 @@ CONTINUITY = 1e-12
 
 @settings(max_examples=150)
 @given(scenes(), st.floats(0.0, 1.0))
-def test_at_follows_the_closed_form(scene: Scene, fraction: float):
+def test_at_follows_the_closed_form(scene, fraction):
     """[I]: between events every ball moves by the formulas of its state."""
     result = play(scene)
     t = fraction * result.duration
@@ -45,7 +46,7 @@ def test_at_follows_the_closed_form(scene: Scene, fraction: float):
 
 @settings(max_examples=100)
 @given(scenes())
-def test_at_is_continuous_across_events(scene: Scene):
+def test_at_is_continuous_across_events(scene):
     """Positions just before and at an event differ by no more than the ball can move in between."""
     result = play(scene)
     for time, events in instants(result):
@@ -61,7 +62,7 @@ def test_at_is_continuous_across_events(scene: Scene):
 
 @settings(max_examples=100)
 @given(scenes())
-def test_at_an_event_shows_the_state_after_it(scene: Scene):
+def test_at_an_event_shows_the_state_after_it(scene):
     result = play(scene)
     for time, events in instants(result):
         after = {state.ball: state for event in events for state in event.states}
@@ -73,13 +74,13 @@ def test_at_an_event_shows_the_state_after_it(scene: Scene):
                 assert tuple(snapshot.positions[ball]) == state.position
 
 
-def told(events) -> list[tuple[str, int, int]]:
+def told(events: Any) -> list[tuple[str, int, int]]:
     return sorted((event.kind.value, event.ball, event.other) for event in events)
 
 
 @settings(max_examples=150)
 @given(scenes(), st.floats(0.0, 1.0))
-def test_split_and_resume(scene: Scene, fraction: float):
+def test_split_and_resume(scene, fraction):
     """Stopping the clock at any time and going on gives the same events and ends, as far as rounding allows."""
     result = play(scene)
     t = fraction * result.duration
@@ -94,7 +95,7 @@ def test_split_and_resume(scene: Scene, fraction: float):
 
 @settings(max_examples=150)
 @given(scenes())
-def test_with_or_without_trace(scene: Scene):
+def test_with_or_without_trace(scene):
     traced, plain = play(scene), play(scene, trace=False)
     assert traced.final == plain.final
     assert (traced.duration, traced.n_events, traced.status) == (plain.duration, plain.n_events, plain.status)
@@ -103,7 +104,7 @@ def test_with_or_without_trace(scene: Scene):
 
 @settings(max_examples=40)
 @given(st.lists(scenes(), min_size=1, max_size=8), st.sampled_from([1, 2]))
-def test_batches_have_the_bits_of_single_shots(drawn: list[Scene], threads: int):
+def test_batches_have_the_bits_of_single_shots(drawn, threads):
     positions = np.stack([state_of(scene).positions for scene in drawn])
     shots = np.array([scene.stroke for scene in drawn])
     batch = physics.simulate_batch(OPEN, positions, shots, threads=threads)

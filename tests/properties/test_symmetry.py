@@ -7,6 +7,7 @@ spins and times can then be compared bit for bit, positions to the rounding of t
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -27,7 +28,7 @@ SHARE = 1000.0
 """A shot that rounding alone moves farther may differ by this many times what one ulp of v does to its end."""
 
 Signs = tuple[int, int]
-Story = dict[int, list[tuple[float, ...]]]
+Story = dict[int, list[tuple[Any, ...]]]
 
 
 def exact(position: tuple[float, float]) -> tuple[float, float] | None:
@@ -88,7 +89,7 @@ def farthest(one: physics.Result, two: physics.Result, signs: Signs, name: Calla
 
 @settings(max_examples=250)
 @given(scenes(), st.sampled_from([(-1, 1), (1, -1), (-1, -1)]))
-def test_mirror_images_and_half_turns(scene: Scene, signs: Signs):
+def test_mirror_images_and_half_turns(scene, signs):
     scene = centred(scene)
     one, two = play(scene), play(image(scene, signs))
     if joint(one):
@@ -102,7 +103,7 @@ def test_mirror_images_and_half_turns(scene: Scene, signs: Signs):
 
 @settings(max_examples=250)
 @given(scenes(), st.randoms(use_true_random=False))
-def test_renumbered_object_balls(scene: Scene, random):
+def test_renumbered_object_balls(scene, random):
     numbers = list(range(1, 16))
     random.shuffle(numbers)
     names = [0, *numbers]

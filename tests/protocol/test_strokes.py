@@ -9,7 +9,7 @@ from client.local_game import play_game
 from physics import Shot, Table
 from protocol import ShotsPage, StrokeDetail, StrokeView, View
 from protocol.strokes import since_own_last
-from referee.game import Action
+from referee.game import Action, Decision
 from referee.play import MatchSeed, NoiseModel, play_stroke, start_game
 from referee.rules import EightBall
 
@@ -104,7 +104,7 @@ def test_a_decision_has_no_stroke_index():
     seeds = MatchSeed.of(1).game(0)
     soft = Action(Shot(0.3, 270.0, 5.0), cue_ball=(0.558, 1.75))
     first = play_stroke(RULES, start_game(RULES, seeds), soft, seeds, NOISE)
-    second = play_stroke(RULES, first.game, Action(decision="accept_table"), seeds, NOISE)
+    second = play_stroke(RULES, first.game, Action(decision=Decision.ACCEPT_TABLE), seeds, NOISE)
     view = StrokeView.of(second, 1)
     assert (view.index, view.stroke, view.shot, view.status, view.pocketed) == (1, None, None, None, ())
     assert view.action.decision == "accept_table"

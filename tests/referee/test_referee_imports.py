@@ -40,14 +40,14 @@ PUBLIC = {
 }
 
 
-def test_import_loads_no_numba_scipy_or_pydantic() -> None:
+def test_import_loads_no_numba_scipy_or_pydantic():
     code = "import sys, referee; print(*sorted({name.split('.')[0] for name in sys.modules}))"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     assert "referee" in loaded
     assert not {"numba", "llvmlite", "scipy", "pydantic", "fastapi", "sqlalchemy"} & set(loaded)
 
 
-def test_public_surface() -> None:
+def test_public_surface():
     """Names leave or join it on purpose only."""
     assert set(referee.__all__) == PUBLIC
     assert all(getattr(referee, name) is not None for name in PUBLIC)

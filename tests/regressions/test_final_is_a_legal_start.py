@@ -17,7 +17,7 @@ def stop(v: float, phi: float) -> physics.TableState:
 
 
 @pytest.mark.parametrize("phi", [0.0, 1.25, 178.0, 180.0, 65.1, 114.9, 245.0, 294.8])
-def test_a_ball_that_just_fails_to_drop_lies_legally(phi: float) -> None:
+def test_a_ball_that_just_fails_to_drop_lies_legally(phi):
     """Bisect the speed to the last bit between stopping short and dropping; every end on the way is a legal start."""
     short, drops = 0.05, 3.0
     assert stop(short, phi).balls == (0,)
@@ -29,7 +29,7 @@ def test_a_ball_that_just_fails_to_drop_lies_legally(phi: float) -> None:
         short, drops = (middle, drops) if end.balls else (short, middle)
 
 
-def test_the_case_it_was_found_with() -> None:
+def test_the_case_it_was_found_with():
     state = physics.TableState.from_positions({0: (0.5559108123501284, 1.2801854785303741)})
     shot = physics.Shot(0.36457885240713483, -16.968969308596428, 1.1848530052647317)
     physics.simulate(TABLE, state, shot).final.valid_on(TABLE)

@@ -27,7 +27,7 @@ ROW = {
 }
 
 
-def test_it_comes_to_rest() -> None:
+def test_it_comes_to_rest():
     state = physics.TableState.from_positions({ball: (x, 2.1455602848706588) for ball, x in ROW.items()})
     result = physics.simulate(SLOWEST, state, physics.Shot(10.0, -180.0, 70.0, 6.12e-26, 1e-9), trace=False)
     assert result.status is physics.Status.AT_REST

@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import dataclass
+from typing import Any
 
 from server.app import create_app
 from server.settings import Settings
@@ -86,9 +87,9 @@ def test_every_route_has_a_line_and_every_line_a_route():
 class Situation:
     """A running match, and everybody's token."""
 
-    server: object
-    ids: dict
-    tokens: dict
+    server: Any
+    ids: dict[str, Any]
+    tokens: dict[str, str | None]
 
     def status(self, route, role):
         """What a role is answered at a route, in a form that is let in for its content only where it has some."""
@@ -96,7 +97,7 @@ class Situation:
         headers = {"Idempotency-Key": f"{route} {role}"}
         if (token := self.tokens[role]) is not None:
             headers["Authorization"] = f"Bearer {token}"
-        body = {"json": {"agents": list(self.ids["agents"])}} if route == "POST /v1/matches" else {}
+        body: dict[str, Any] = {"json": {"agents": list(self.ids["agents"])}} if route == "POST /v1/matches" else {}
         with self.server.http.stream(method, path.format(**self.ids), headers=headers, **body) as response:
             return response.status_code
 

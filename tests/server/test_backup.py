@@ -18,6 +18,7 @@ def copied(url, target):
     return subprocess.run(command, capture_output=True, text=True, timeout=60)
 
 
+@pytest.mark.slow
 def test_a_copy_made_under_load_is_restored_and_goes_on(own_server, table_at, tmp_path):
     server = own_server()
     tables = [table_at(server, **TERMS) for _ in range(3)]

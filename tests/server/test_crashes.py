@@ -9,6 +9,7 @@ import signal
 import threading
 import time
 import uuid
+from typing import Any
 
 import httpx2
 import pytest
@@ -107,7 +108,7 @@ class Hands:
 
 def history(table, game, cursor=0):
     """The strokes of a game, all pages."""
-    strokes = []
+    strokes: list[Any] = []
     while cursor is not None:
         path = f"/v1/games/{game}/shots"
         page = insist(lambda path=path, cursor=cursor: table.organiser.get(path, cursor=cursor, limit=200)).json()
@@ -115,6 +116,7 @@ def history(table, game, cursor=0):
     return strokes
 
 
+@pytest.mark.slow
 def test_killed_at_every_step_of_a_shot(own_server, table_at, script):
     """One match with a crash at each step in turn is, in the end, the match that is played without any."""
     server = own_server(POOLIAD_FAILPOINT=f"{POINTS[0]}:3")
@@ -143,6 +145,7 @@ def test_killed_at_every_step_of_a_shot(own_server, table_at, script):
     hands.end()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kills", [10, pytest.param(200, marks=pytest.mark.long)])
 def test_killed_at_random_under_load(own_server, table_at, script, kills):
     server = own_server()

@@ -76,6 +76,7 @@ def test_files_that_others_may_read_are_told_of_at_the_start(own_server):
         assert words in line["message"]
 
 
+@pytest.mark.slow
 def test_doctor_and_backup_tell_of_them_too(own_server, tmp_path):
     server = own_server()
     server.stop(signal.SIGKILL)
@@ -94,6 +95,7 @@ def test_doctor_and_backup_tell_of_them_too(own_server, tmp_path):
     assert json.loads(done.stdout)["database"]["open_to_others"] == []
 
 
+@pytest.mark.slow
 def test_a_backup_follows_no_link_that_lay_there(own_server, tmp_path):
     """What a killed backup left, or somebody planted, under the unfinished copy's name."""
     server = own_server()
@@ -106,7 +108,9 @@ def test_a_backup_follows_no_link_that_lay_there(own_server, tmp_path):
     assert modes(copy) == {"copy.db": 0o600}
 
 
-@pytest.mark.parametrize("kind", ["symlink", "folder", "hard link"])
+@pytest.mark.parametrize(
+    "kind", ["symlink", *(pytest.param(each, marks=pytest.mark.slow) for each in ("folder", "hard link"))]
+)
 def test_one_file_is_served_once_by_whatever_name(own_server, tmp_path, kind):
     """Two servers on one file would each believe that its clocks, caches and locks are the only ones."""
     server = own_server()
@@ -189,7 +193,17 @@ def a_folder(path):
     return "Is a directory"
 
 
-@pytest.mark.parametrize("make", [no_database, foreign, foreign_with_migrations, newer, damaged, a_folder])
+@pytest.mark.parametrize(
+    "make",
+    [
+        newer,
+        damaged,
+        *(
+            pytest.param(each, marks=pytest.mark.slow)
+            for each in (no_database, foreign, foreign_with_migrations, a_folder)
+        ),
+    ],
+)
 def test_a_database_that_is_not_ours_ends_in_one_sentence(tmp_path, make):
     path = tmp_path / "odd.db"
     words = make(path)

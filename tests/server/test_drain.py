@@ -61,6 +61,7 @@ def stroke_of(mover, view, break_shot):
     return head, body
 
 
+@pytest.mark.slow
 def test_everybody_is_told_and_the_server_ends(own_server, table_at, player_at, break_shot, sent):
     server = own_server(POOLIAD_DRAIN_SECONDS="2")
     table = table_at(server, noise={"level": 0.0})

@@ -220,6 +220,7 @@ def test_nothing_that_yields_noise_is_told_before_the_end(server, new_table, bre
     assert not [secret for secret in secrets for text in told if secret in text]
 
 
+@pytest.mark.slow
 def test_a_match_committed_to_another_engine_is_called_off_at_the_start(own_server, table_at):
     """Its records would not be what was committed to; the record of the game that was on says how it ended."""
     server = own_server()

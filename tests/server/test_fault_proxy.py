@@ -3,6 +3,7 @@
 import itertools
 import json
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import pytest
 from support.fault_proxy import FAULTS, FaultProxy, serving
@@ -74,7 +75,7 @@ def test_a_match_through_faults_is_the_match_without_them(server, new_table, sho
 def check_history(proxy, records):
     """Versions are consecutive, whatever was acknowledged is there once, and a repeated request got the same bytes."""
     accepted = [one for one in proxy.exchanges if one.method == "POST" and one.status == 200]
-    by_key = {}
+    by_key: dict[Any, bytes] = {}
     for one in accepted:
         assert by_key.setdefault((one.path, one.key), one.body) == one.body
     answers = [json.loads(body) for body in by_key.values()]

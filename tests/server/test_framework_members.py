@@ -5,6 +5,7 @@ A release that renames one of these would take a limit away without an error: th
 
 import inspect
 from types import SimpleNamespace
+from typing import Any
 
 import h11
 import pytest
@@ -38,7 +39,8 @@ async def no_app(scope, receive, send):
 def test_a_connection_has_what_the_limits_read():
     config = uvicorn.Config(no_app, h11_max_incomplete_event_size=1024, lifespan="off")
     config.load()
-    loop, state = SimpleNamespace(), ServerState()
+    loop: Any = SimpleNamespace()
+    state = ServerState()
     protocol = BOUNDED(config, state, {}, _loop=loop)
     assert protocol.loop is loop
     assert protocol.server_state is state

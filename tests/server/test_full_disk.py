@@ -87,8 +87,8 @@ def test_a_full_disk(own_server, small_disk):
     until_ready(server, 200)
     ballast = small_disk / "ballast"
     with contextlib.suppress(OSError), ballast.open("wb", buffering=0) as file:
-        while True:
-            file.write(bytes(4096))
+        while file.write(bytes(4096)):
+            continue
     assert until_ready(server, 503)["code"] == "unavailable"
     ballast.unlink()
     assert until_ready(server, 200)["status"] == "ready"

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import fields
+from typing import Any
 from urllib.parse import quote
 
 import pytest
@@ -87,7 +88,7 @@ def test_any_body(seated, path):
 def test_any_table(seated, path):
     """All else is well formed or comes after, so that the table's values reach the physics."""
     mover, _ = seated
-    others = {
+    others: dict[str, dict[str, Any]] = {
         "/v1/simulate": WHOLE_SCENE,
         "/v1/simulate/batch": {"balls": WHOLE_SCENE["balls"], "shots": [WHOLE_SCENE["shot"]]},
         "/v1/min-elevation": {"balls": WHOLE_SCENE["balls"], "phi": 0.0},

@@ -120,6 +120,7 @@ def test_bots_end_with_the_server_and_come_back_with_it(house_server):
     until(lambda: bot_processes(server))
 
 
+@pytest.mark.slow
 def test_a_bot_left_over_from_a_killed_server_is_sent_away(house_server, player_at):
     """Its token is void as soon as another process runs the bot."""
     server = house_server()

@@ -52,6 +52,7 @@ def test_every_record_is_signed_with_the_published_key(server, new_table):
     assert (found.seal.state, found.seal.key) == (SealState.VALID, key["id"])
 
 
+@pytest.mark.slow
 def test_a_rotation_takes_effect_at_once_and_old_records_keep_verifying(own_server, table_at):
     server = own_server()
     table = table_at(server, games=3)

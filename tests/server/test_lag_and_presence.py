@@ -17,7 +17,7 @@ from server.services.watch.presence import Presence
 
 @pytest.fixture
 def stage(tmp_path):
-    stages = []
+    stages: list[Stage] = []
 
     def make(**settings):
         stages.append(Stage(tmp_path / f"{len(stages)}.db", **settings))
@@ -80,7 +80,8 @@ def test_the_ledger_adds_up_however_late_turns_are_fetched_and_whoever_stops_the
     """Measured is what passed while a server ran; of it a second a turn and five a game are given back."""
     chance, now = random.Random(seed), stage(lag_turn=0.25, lag_game=1.0)
     heartbeat.begin(now.context, "first", alone=True)
-    seats, passed = now.game("ann", "bob", clock={"seconds": 1_000.0}, seed=f"{seed:064x}"), []
+    seats = now.game("ann", "bob", clock={"seconds": 1_000.0}, seed=f"{seed:064x}")
+    passed: list[int] = []
     while len(passed) < 24 and (turn := now.waiting(seats)) is not None:
         passed.append(0)
         waited = chance.choice((0.0, 0.5, 0.999, 1.0, 3.0))
@@ -107,7 +108,8 @@ def test_the_ledger_adds_up_however_late_turns_are_fetched_and_whoever_stops_the
 def test_fetching_late_gains_five_seconds_a_game_and_no_more(stage, script):
     """Every turn is fetched two seconds late: the sixth is charged all of it."""
     chance, now = random.Random(1), stage(lag_turn=0.0)
-    seats, given = now.game("ann", "bob", clock={"seconds": 1_000.0}, seed="5" * 64), ([], [])
+    seats = now.game("ann", "bob", clock={"seconds": 1_000.0}, seed="5" * 64)
+    given: tuple[list[int], list[int]] = ([], [])
     while min(map(len, given)) < 7 and (turn := now.waiting(seats)) is not None:
         now.time.pass_(2.0)
         now.act(seats, view := now.fetched(seats, turn), script(view, chance))

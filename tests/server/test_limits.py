@@ -7,6 +7,7 @@ import socket
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import pytest
 from support.server_time import StoppedTime
@@ -17,7 +18,10 @@ from server.security import rates
 from server.security.rates import Rates
 from server.services.physics.pool import WAITING, PhysicsPool
 
-SCENE = {"balls": {"0": [0.5, 1.7]}, "shots": [{"v": 1.0, "phi": 270.0, "theta": 10.0, "a": 0.0, "b": 0.0}]}
+SCENE: dict[str, Any] = {
+    "balls": {"0": [0.5, 1.7]},
+    "shots": [{"v": 1.0, "phi": 270.0, "theta": 10.0, "a": 0.0, "b": 0.0}],
+}
 TCP_ESTABLISHED = 1
 
 

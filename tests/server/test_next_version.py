@@ -46,6 +46,7 @@ def upgraded(server, environment):
     server.start()
 
 
+@pytest.mark.slow
 def test_a_match_goes_on_when_the_next_version_has_the_same_engine(own_server, table_at, next_version):
     """Its second game begins after the upgrade: both records lead to the one commitment, with the engine it names."""
     server = own_server()
@@ -69,6 +70,7 @@ def test_a_match_goes_on_when_the_next_version_has_the_same_engine(own_server, t
     assert header["engine"] == {"version": "99.0", "digest": this_engine().digest}
 
 
+@pytest.mark.slow
 def test_a_match_is_called_off_when_the_next_version_has_another_engine(own_server, table_at, next_version):
     server = own_server()
     table = table_at(server, clock={"seconds": 3600})

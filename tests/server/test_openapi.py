@@ -142,7 +142,7 @@ class Somewhere:
         token = {"name": "example", "scopes": ["read"]}
         token_id = table.organiser.post("/v1/tokens", token).json()["id"]
         ids = {"agent_id": agent, "match_id": match, "game_id": view["game"], "token_id": token_id}
-        address = path.format(**ids, tournament_id=event)
+        address = path.format(**ids, tournament_id=event, name="nine_foot")
         headers = {header["name"]: header["example"] for header in headers_of(operation)}
         if "If-Match" in headers:
             headers["If-Match"] = f'"{view["version"]}"'

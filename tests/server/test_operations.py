@@ -10,7 +10,7 @@ from prometheus_client.parser import text_string_to_metric_families
 from support.require import ROOT
 from support.server_time import Stage
 
-from physics.self_test import self_test
+from physics.self_test import SelfTest, self_test
 from referee.record import this_engine
 from server.errors import Draining
 from server.ops.logs import REQUEST, JsonLines
@@ -152,7 +152,7 @@ def test_ready_names_engine_self_test_database_and_schema(server):
 
 def test_physics_that_contradicts_itself_is_not_ready(tmp_path, monkeypatch, caplog):
     stage = Stage(tmp_path / "ready.db")
-    wrong = warmup.SelfTest(ok=False, digest="0" * 64, events=1)
+    wrong = SelfTest(ok=False, digest="0" * 64, events=1)
     monkeypatch.setattr(warmup, "self_test", lambda: wrong)
     warmup.start(stage.context)
     assert stage.context.warm_up_failed.wait(30)

@@ -31,7 +31,7 @@ def games_of(new_table, break_shot):
     """Two games, one running, one finished, in each of which both players have shot with the key "used"."""
     tables = new_table(noise={"level": 0.0}), new_table(noise={"level": 0.0})
     for table in tables:
-        shooters = set()
+        shooters: set[str] = set()
         while len(shooters) < 2:
             mover, view = table.mover()
             action = soft(view, break_shot)

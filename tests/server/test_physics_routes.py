@@ -1,6 +1,7 @@
 """CONTRACT, HTTP: the physics alone, for any language, with the library's own numbers."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -119,7 +120,7 @@ def test_min_elevation_where_there_is_none(new_player):
     ],
 )
 def test_bad_scenes(new_player, path, change, field):
-    body = {"balls": BALLS} | ({"phi": 0.0} if path == "/v1/min-elevation" else {"shot": SHOT})
+    body: dict[str, Any] = {"balls": BALLS} | ({"phi": 0.0} if path == "/v1/min-elevation" else {"shot": SHOT})
     body = {"balls": BALLS} if "shots" in change else body
     response = new_player().request("POST", path, json=body | change)
     if field is None:
@@ -147,7 +148,7 @@ def test_bad_scenes(new_player, path, change, field):
     ],
 )
 def test_a_bad_table_is_named_with_its_value(new_player, path, table, field, value):
-    shots = {"/v1/simulate": {"shot": SHOT}, "/v1/simulate/batch": {"shots": [SHOT]}}
+    shots: dict[str, Any] = {"/v1/simulate": {"shot": SHOT}, "/v1/simulate/batch": {"shots": [SHOT]}}
     response = new_player().request("POST", path, json=shots.get(path, {"phi": 0.0}) | {"balls": BALLS, "table": table})
     assert response.status_code == 422, response.text
     fault = response.json()["errors"][0]
@@ -188,7 +189,7 @@ def batch(shots):
 
 def test_a_batch_that_takes_too_long_is_ended(monkeypatch):
     times = iter([0.0, 1.0, 2.0, 30.0])
-    monkeypatch.setattr(service.time, "monotonic", lambda: next(times))
+    monkeypatch.setattr("server.services.physics.simulations.time.monotonic", lambda: next(times))
     with pytest.raises(Invalid) as refused:
         service.simulate_batch(batch(1000))
     assert refused.value.extensions["field"] == "shots"
@@ -196,7 +197,7 @@ def test_a_batch_that_takes_too_long_is_ended(monkeypatch):
 
 
 def test_a_batch_that_nobody_waits_for_any_more_is_ended():
-    asked = []
+    asked: list[None] = []
 
     def go_on():
         asked.append(None)

@@ -1,12 +1,14 @@
 """Matches that begin from a given position: who may make them, what is refused, their records."""
 
+from typing import Any
+
 import pytest
 
 from physics import Table, rack
 from referee.play import GameSeeds, seed_from_hex
 from referee.record import MatchTerms, read_record, verify_record
 
-START = {"balls": {"0": [0.5, 1.7], "3": [0.4, 0.6], "8": [0.9, 0.4]}, "groups": ["solids", "stripes"]}
+START: dict[str, Any] = {"balls": {"0": [0.5, 1.7], "3": [0.4, 0.6], "8": [0.9, 0.4]}, "groups": ["solids", "stripes"]}
 
 
 def test_every_game_begins_there_and_the_match_is_unrated(new_table):

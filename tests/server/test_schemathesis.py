@@ -47,6 +47,7 @@ def run(folder, url, token, examples, *options):
     return done.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("role", "examples"),
     [("agent", 3), *(pytest.param(role, 200, marks=pytest.mark.long) for role in ("agent", "organiser"))],

@@ -140,8 +140,7 @@ def test_the_seed_stays_a_secret_while_a_match_of_an_event_that_ended_is_played(
     made = json.loads(tournaments.create(stage.context, stage.command(ORGANISER, body, key="make")).body)
     tournaments.start(stage.context, made["id"], stage.command(ORGANISER, key="start"))
     (game,) = tournaments.one(stage.context, made["id"]).played
-    real = tournaments.call_off
-    monkeypatch.setattr(tournaments, "call_off", lambda context, match: None)
+    monkeypatch.setattr("server.services.tournaments.tournaments.call_off", lambda context, match: None)
     out = stage.command(ORGANISER, json.dumps({"name": "ann"}).encode(), key="out")
     tournaments.disqualify(stage.context, made["id"], out)
     view = tournaments.one(stage.context, made["id"])
@@ -149,7 +148,7 @@ def test_the_seed_stays_a_secret_while_a_match_of_an_event_that_ended_is_played(
     assert "seed" not in view.terms
     assert view.terms["noise"] == {"told": False}
     assert matches.one(stage.context, str(game.match)).noise.level is None
-    real(stage.context, str(game.match))
+    matches.call_off(stage.context, str(game.match))
     view = tournaments.one(stage.context, made["id"])
     assert len(view.terms["seed"]) == 64
     assert view.terms["noise"] == {"levels": [2.0], "told": False}

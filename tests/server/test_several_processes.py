@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import httpx2
 import psycopg
@@ -102,6 +103,7 @@ def test_a_spectator_here_sees_the_players_there(pair, table_at, break_shot):
             poll.result()
 
 
+@pytest.mark.slow
 def test_a_spectator_here_sees_that_the_players_server_was_killed(own_pair, table_at):
     """ "Opponent disconnected" across processes: a dead one's word lasts three heartbeats, and no longer."""
     here, there = own_pair
@@ -120,6 +122,7 @@ def test_a_spectator_here_sees_that_the_players_server_was_killed(own_pair, tabl
             assert isinstance(poll.exception(), httpx2.TransportError)
 
 
+@pytest.mark.slow
 def test_a_lost_connection_of_the_hints_costs_time_and_nothing_else(own_server, table_at):
     """The database ends the sessions that listen and send; polls look by themselves, and the relay comes back."""
     first = own_server(POOLIAD_POLL_RECHECK="0.5")
@@ -147,6 +150,7 @@ def test_one_of_two_is_killed_in_the_middle_and_the_match_goes_on_through_the_ot
     assert [line["entry"] for line in kept] == list(range(len(answers)))
 
 
+@pytest.mark.slow
 def test_who_stays_keeps_the_clocks_of_running_turns(own_pair, table_at):
     """A process that starts or leaves while another serves is no downtime: no turn is to be fetched anew."""
     table = table_at(own_pair[0], clock={"seconds": 60})
@@ -161,6 +165,7 @@ def test_who_stays_keeps_the_clocks_of_running_turns(own_pair, table_at):
 FOUR = ("ann", "bob", "cat", "dan")
 
 
+@pytest.mark.slow
 def test_one_of_two_is_killed_in_the_middle_and_the_event_goes_on_through_the_other(own_pair, organiser_at, player_at):
     """docs/running-tournaments.md, Over HTTP: finished games stand, running ones go on, what is due begins."""
     first, second = own_pair
@@ -241,7 +246,7 @@ def test_the_same_request_at_both_at_once_is_carried_out_once(pair, table_at, br
 
 def test_the_same_match_asked_for_at_both_at_once_is_made_once(pair, table_at):
     table = table_at(pair[0])
-    body = {"agents": [player.id for player in table.players], "games": 3}
+    body: dict[str, Any] = {"agents": [player.id for player in table.players], "games": 3}
     headers = {"Idempotency-Key": "match"}
     with ThreadPoolExecutor(8) as pool:
         answers = list(
@@ -255,6 +260,7 @@ def test_the_same_match_asked_for_at_both_at_once_is_made_once(pair, table_at):
     assert len(table.organiser.get("/v1/matches", agent=body["agents"][0]).json()["matches"]) == 2
 
 
+@pytest.mark.slow
 def test_two_timers_let_a_flag_fall_once(own_server, table_at):
     first = own_server(POOLIAD_FETCH_GRACE="0.2")
     own_server(first.database_url, POOLIAD_FETCH_GRACE="0.2")
@@ -268,6 +274,7 @@ def test_two_timers_let_a_flag_fall_once(own_server, table_at):
             assert player.get("/v1/turns").status_code == 204
 
 
+@pytest.mark.slow
 def test_a_process_that_is_killed_is_replaced(own_server, table_at):
     server = own_server(options=("--processes", "2"))
     table = table_at(server)
@@ -283,6 +290,7 @@ def test_a_process_that_is_killed_is_replaced(own_server, table_at):
     assert "another takes its place" in server.log
 
 
+@pytest.mark.slow
 def test_what_a_process_was_answering_when_it_was_killed_is_not_in_progress_any_more(own_server, player_at):
     server = own_server(options=("--processes", "2"))
     request = f"GET /v1/turns?wait=60 HTTP/1.1\r\nHost: x\r\nAuthorization: Bearer {player_at(server).token}\r\n\r\n"

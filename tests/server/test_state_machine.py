@@ -217,7 +217,12 @@ def explore(new_table, server, examples, steps):
         deadline=None,
         suppress_health_check=list(HealthCheck),
     )
-    run_state_machine_as_test(lambda: Match(new_table, server), settings=bounds)
+
+    class MatchHere(Match):
+        def __init__(self):
+            super().__init__(new_table, server)
+
+    run_state_machine_as_test(MatchHere, settings=bounds)
 
 
 def test_a_match_is_what_a_tiny_referee_says(new_table, server):

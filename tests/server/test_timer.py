@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from support.server_time import SECOND, StoppedTime
 
 from protocol import AgentRequest
 from server.errors import OutOfTime
@@ -10,25 +11,12 @@ from server.http.commands import Command
 from server.security.callers import Caller
 from server.services.accounts import agents
 from server.services.matches import matches
-from server.services.play import strokes, turns
-from server.services.play.clock import flag
-from server.services.play.clock.flag import flag as take_flags
+from server.services.play import games, strokes, turns
+from server.services.play.clock.flag import flag
 from server.services.runtime.context import Context
 from server.settings import Settings
 from server.store.database import Database
 from server.store.upgrade import upgrade
-
-SECOND = 1_000_000_000
-
-
-class StoppedTime:
-    """A time that moves when it is told to."""
-
-    def __init__(self) -> None:
-        self.value = 1_000 * SECOND
-
-    def now(self) -> int:
-        return self.value
 
 
 @pytest.fixture
@@ -72,7 +60,7 @@ def concede(context, game, mover):
 
 def ended(context, turn):
     """Whether the mover has been told that the game is over."""
-    take_flags(context)
+    flag(context)
     message = turns.next_message(context, turn[1])
     return message is not None and json.loads(message)["type"] == "game_over"
 
@@ -137,8 +125,8 @@ def test_a_game_that_cannot_be_ended_does_not_keep_the_others_running(context, m
             raise RuntimeError("its row is damaged")
         return real(writing, live, *how, **when)
 
-    real = flag.course.end_from_outside
-    monkeypatch.setattr(flag.course, "end_from_outside", end)
+    real = games.end_from_outside
+    monkeypatch.setattr(games, "end_from_outside", end)
     context.time.value += 20 * SECOND
     assert ended(context, whole)
     assert broken[0] in caplog.text

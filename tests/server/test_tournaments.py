@@ -82,8 +82,8 @@ def test_an_unknown_level_of_noise_is_a_secret_until_the_end(cup, server, noise)
     (running,) = event.running()
     assert running["noise"] is None
     (game,) = event.organiser.get(f"/v1/matches/{running['match']}").json()["played"]
-    paths = (f"tournaments/{event.id}", f"tournaments/{event.id}/standings", "tournaments")
-    paths += (f"matches/{running['match']}", f"games/{game['id']}", f"games/{game['id']}/shots")
+    paths = [f"tournaments/{event.id}", f"tournaments/{event.id}/standings", "tournaments"]
+    paths += [f"matches/{running['match']}", f"games/{game['id']}", f"games/{game['id']}/shots"]
     answers += [event.organiser.get(f"/v1/{path}") for path in paths]
     assert {answer.status_code for answer in answers} == {200}
     told = [answer.text for answer in answers]

@@ -109,7 +109,7 @@ def test_nothing_of_a_running_game_shows_its_seed(server, new_table):
     assert "7" * 64 not in shown
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("number", [pytest.param(signal.SIGTERM, marks=pytest.mark.slow), signal.SIGKILL])
 def test_every_game_continues_after_a_restart(own_server, table_at, number):
     server = own_server()
     table, other = table_at(server), table_at(server)

@@ -86,7 +86,7 @@ def instants(result: physics.Result) -> Iterator[tuple[float, list[physics.Event
 
 def audit(table: physics.Table, start: physics.TableState, result: physics.Result) -> Worst:
     """Walk the trace; the strike itself adds energy and is not judged."""
-    last = {ball: resting(ball, start.position(ball)) for ball in start.balls}
+    last = {ball: resting(ball, place) for ball in start.balls if (place := start.position(ball))}
     since, worst = 0.0, Worst()
     for time, events in instants(result):
         now = {ball: moved(table, state, time - since) for ball, state in last.items()}

@@ -2,14 +2,16 @@
 
 import random
 from collections.abc import Callable
+from typing import Any
 
+from referee.game import EndReason
 from tournament import Due, Entrant, GameResult, Spec, Tournament
 
 Chooser = Callable[[Due], int | None]
 """Who wins a game: a seat, or None for a draw."""
 
 
-def spec_of(entrants: int, **terms) -> Spec:
+def spec_of(entrants: int, **terms: Any) -> Spec:
     """Terms with entrants a, b, c …"""
     return Spec("event", tuple(Entrant(name_of(index)) for index in range(entrants)), **terms)
 
@@ -19,9 +21,9 @@ def name_of(index: int) -> str:
     return chr(ord("a") + index % 26) + (str(index // 26) if index >= 26 else "")
 
 
-def result_of(due: Due, winner: int | None, **more) -> GameResult:
+def result_of(due: Due, winner: int | None, **more: Any) -> GameResult:
     """A game that ended with this winner."""
-    reason = "eight_made" if winner is not None else "stalemate"
+    reason = EndReason.EIGHT_MADE if winner is not None else EndReason.STALEMATE
     return GameResult(
         due.pair.id,
         due.leg,

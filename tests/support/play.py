@@ -37,12 +37,12 @@ def apart(one: physics.TableState, two: physics.TableState) -> float:
     """Largest distance between the places of a ball in two ends (m); infinite if it is in play in one only."""
     if one.balls != two.balls:
         return math.inf
-    return max((math.dist(one.position(ball), two.position(ball)) for ball in one.balls), default=0.0)
+    return max((math.dist(one.positions[ball], two.positions[ball]) for ball in one.balls), default=0.0)
 
 
 def sensitivity(scene: Scene, table: physics.Table = OPEN) -> float:
     """How far the end moves when v moves by one ulp, up or down (m): what rounding alone can do to this shot."""
-    v, *others = scene.stroke
+    v, phi, theta, a, b = scene.stroke
     end = play(scene, table, trace=False).final
-    nudged = [replace(scene, stroke=(math.nextafter(v, to), *others)) for to in (0.0, 10.0)]
+    nudged = [replace(scene, stroke=(math.nextafter(v, to), phi, theta, a, b)) for to in (0.0, 10.0)]
     return max(apart(end, play(other, table, trace=False).final) for other in nudged)

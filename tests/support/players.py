@@ -2,8 +2,9 @@
 
 import math
 from dataclasses import dataclass, field
+from typing import Literal
 
-from physics import SeededStream, Shot, min_elevation
+from physics import SeededStream, Shot, TableState, min_elevation
 from protocol import View
 from referee.game import Action, Call, Decision
 
@@ -16,7 +17,7 @@ class Potter:
     strength: float = 3.0
     stream: SeededStream = field(init=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self.stream = SeededStream(bytes(32), self.name)
 
     def __call__(self, view: View) -> Action:
@@ -38,27 +39,28 @@ class Potter:
     def _speed(self, view: View) -> float:
         return 9.5 if view.phase == "break" else self.strength * (0.5 + self.stream.uniform())
 
-    def _place(self, view: View):
+    def _place(self, view: View) -> tuple[tuple[float, float], TableState]:
+        assert view.cue_ball_area is not None
         (west, east), (south, north) = view.cue_ball_area.x, view.cue_ball_area.y
         others = view.state.removed(0)
         while True:
             x = west + (east - west) * self.stream.uniform()
             y = south + (north - south) * self.stream.uniform()
-            clear = all(math.dist((x, y), others.position(ball)) > 0.06 for ball in others.balls)
+            clear = all(math.dist((x, y), others.positions[ball]) > 0.06 for ball in others.balls)
             if clear and view.table_model().contains(x, y):
                 return (x, y), others.moved(0, (x, y))
 
-    def _aim(self, view: View, state):
-        cue_x, cue_y = state.position(0)
+    def _aim(self, view: View, state: TableState) -> tuple[float, Call | Literal["safety"] | None]:
+        cue_x, cue_y = state.positions[0].tolist()
         if view.phase == "break":
             x, y = view.table_model().foot_spot
             return math.degrees(math.atan2(y - cue_y, x - cue_x)), None
         if not view.callable_balls:  # the 8 alone on an open table: only a safety may be called
-            x, y = state.position(8)
+            x, y = state.positions[8].tolist()
             return math.degrees(math.atan2(y - cue_y, x - cue_x)), "safety"
         ball = view.callable_balls[self.stream.below(len(view.callable_balls))]
         pocket = self.stream.below(6)
-        (x, y), mouth = state.position(ball), view.table_model().mouths[pocket]
+        (x, y), mouth = state.positions[ball].tolist(), view.table_model().mouths[pocket]
         reach = math.dist((x, y), mouth)
         diameter = 2.0 * view.table_model().ball_radius
         ghost = (x - diameter * (mouth[0] - x) / reach, y - diameter * (mouth[1] - y) / reach)

@@ -15,6 +15,7 @@ from server.services.matches import matches
 from server.services.play import history, strokes, turns
 from server.services.play.clock.flag import flag
 from server.services.runtime.context import Context
+from server.services.runtime.time import TimeSource
 from server.settings import Settings
 from server.store.database import Database
 from server.store.upgrade import upgrade
@@ -23,10 +24,11 @@ SECOND = 1_000_000_000
 TERMS = {"clock": {"seconds": 10.0}}
 
 
-class StoppedTime:
+class StoppedTime(TimeSource):
     """A time that moves when it is told to, in nanoseconds."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.value = 1_000 * SECOND
 
     def now(self) -> int:
@@ -46,7 +48,7 @@ class Stage:
         self.time = StoppedTime()
         database = Database(f"sqlite:///{path}")
         upgrade(database)
-        self.context = Context(Settings(**settings), database, time=self.time)  # type: ignore[arg-type]
+        self.context = Context(Settings(**settings), database, time=self.time)
 
     def close(self) -> None:
         self.context.database.dispose()

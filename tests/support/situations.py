@@ -67,7 +67,7 @@ def ghost(ball: Place, target: Place) -> Place:
 def pot(balls: Balls, ball: int, pocket: int, v: float, b: float = -8.0, a: float = 0.0) -> Shot:
     """The stroke that sends ``ball`` to ``pocket``, the cue raised as far as need be."""
     mouth = tuple(TABLE.mouths[pocket].tolist())
-    return stroke(balls, towards(balls[0], ghost(balls[ball], mouth)), v, b=b, a=a)  # type: ignore[arg-type]
+    return stroke(balls, towards(balls[0], ghost(balls[ball], mouth)), v, b=b, a=a)
 
 
 def stroke(balls: Balls, phi: float, v: float, b: float = 0.0, a: float = 0.0) -> Shot:

@@ -39,7 +39,8 @@ class TinyReferee:
         down = {event.ball: event.other for event in result.events if event.kind == "pocket_collision"}
         foul = self._is_foul(result.events, targets, down)
         made = call != "safety" and down.get(call["ball"]) == call["pocket"]
-        self.balls = {ball: result.final.position(ball) for ball in result.final.balls}
+        places = {ball: result.final.position(ball) for ball in result.final.balls}
+        self.balls = {ball: place for ball, place in places.items() if place}
         if EIGHT in down:
             won = targets == [EIGHT] and made and not foul
             self.winner = seat if won else 1 - seat

@@ -10,22 +10,26 @@ from protocol import View
 from referee import Action, EightBall
 from referee.play import MatchSeed, NoiseModel
 
+Choose = Callable[[View], Action]
+
 RULES = EightBall(physics.Table.olympiad())
 
 
 def whole_game(agents: Iterable[Callable[[], Agent]], seed: int, noise: float) -> tuple[Any, list[Any]]:
     """The game as it was played, and every refusal of it. ``agents``: by seat, each makes one agent."""
-    factories, refused = list(agents), []
+    factories = list(agents)
+    refused: list[Any] = []
 
-    def seats(_number: int, _budgets: Any) -> tuple[Callable[[View], Action], ...]:
-        return tuple(_chooser(factory()) for factory in factories)
+    def seats(_number: int, _budgets: Any) -> tuple[Choose, Choose]:
+        one, two = (_chooser(factory()) for factory in factories)
+        return one, two
 
     watch = Watch(on_refusal=refused.append)
     (game,) = play_match(RULES, seats, MatchSeed.of(seed), 1, NoiseModel(noise), watch=watch)
     return game, refused
 
 
-def _chooser(agent: Agent) -> Callable[[View], Action]:
+def _chooser(agent: Agent) -> Choose:
     started = False
 
     def choose(view: View) -> Action:

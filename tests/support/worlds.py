@@ -1,6 +1,7 @@
 """Tables, scenes and strokes handed to both engines."""
 
 from collections.abc import Mapping
+from typing import overload
 
 import numpy as np
 from support.compare import UNRECORDED, Happening
@@ -23,6 +24,10 @@ REAL_NAMES = (
 )
 
 
+@overload
+def world_of(table: physics.RealTable) -> RealWorld: ...
+@overload
+def world_of(table: physics.Table) -> World: ...
 def world_of(table: physics.Table) -> World:
     """The truth engine's constants for a table of the engine under test."""
     values = table.to_dict()

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.events import by_lot, play, result_of, spec_of
 
+from referee.game import EndReason
 from tournament import GameResult, InvalidResult, NoisePlan, Tournament, game_seeds, standings
 
 
@@ -64,7 +65,7 @@ def test_a_void_game_is_due_again():
 def test_an_aborted_game_is_due_again():
     event = Tournament(spec_of(2))
     due = event.due[0]
-    aborted = GameResult(due.pair.id, 0, due.pair.players, 0, None, "aborted")
+    aborted = GameResult(due.pair.id, 0, due.pair.players, 0, None, EndReason.ABORTED)
     event = event.with_results(aborted)
     assert event.due[0].attempt == 1
     assert event.counted == ()

@@ -26,7 +26,8 @@ def entry_by_lot(event, chance):
 
 def entries_by_lot(spec, chance):
     """A course in the order in which somebody noted it."""
-    entries, ledger = [], Ledger(Tournament(spec))
+    entries: list[Act] = []
+    ledger = Ledger(Tournament(spec))
     while len(entries) < 80 and not ledger.over:
         entries.append(entry_by_lot(ledger.event, chance))
         ledger = ledger.after(entries[-1:])

@@ -6,6 +6,8 @@ import math
 import pytest
 from support.events import spec_of
 
+from physics import Table
+from physics.table import NAMED
 from tournament import PRESETS, Entrant, InvalidSpec, NoisePlan, Spec, SprtTerms, Tournament, game_seeds
 
 WHOLE = {"name": "Winter open", "entrants": ["greedy", {"name": "b", "agent": "python b.py"}]}
@@ -53,7 +55,13 @@ def test_terms_survive_json(terms):
         ({"seed": 5, "lots": "ab" * 32}, "lots = '<64 letters>': must be left out"),
         ({"seed": 5, "foreseeable": False}, "foreseeable = False: must be true"),
         ({"foreseeable": 1}, "foreseeable = 1"),
-        ({"table": "snooker"}, "table = 'snooker': must be olympiad, fastfiz"),
+        (
+            {"table": "snooker"},
+            "table = 'snooker': must be olympiad, fastfiz, nine_foot, eight_foot, seven_foot or a table's parameters",
+        ),
+        ({"table": ["nine_foot"]}, "table = ['nine_foot']: must be olympiad"),
+        ({"table": {"name": "nine_foot", "cushion": "soft"}}, "table.cushion = 'soft': must be one of ('han'"),
+        ({"table": {"name": "nine_foot", "corner_mouth": 0.2}}, "table.corner_mouth = 0.2: must be a number from 0.09"),
         ({"table": {"name": "olympiad", "width": -1}}, "table.width = -1"),
         ({"table": {"width": -1}}, "table.name = None: must be one of"),
         ({"entrants": ["a", "a"]}, "entrants = 'a': must be names that are all different"),
@@ -169,3 +177,17 @@ def test_an_event_has_at_most_250000_pairs(terms):
 def test_an_sprt_is_no_knockout():
     with pytest.raises(InvalidSpec, match="no knockout"):
         spec_of(2, format="knockout", sprt=SprtTerms())
+
+
+@pytest.mark.parametrize("name", sorted(NAMED))
+def test_any_named_table_can_be_played_on(name):
+    assert Spec.from_dict(WHOLE | {"table": name}).table == name
+
+
+def test_a_table_is_a_name_and_what_is_changed_of_it():
+    """The rest has the named table's value; a change of law brings its constants along."""
+    spec = Spec.from_dict(WHOLE | {"table": {"name": "nine_foot", "cushion": "mathavan", "corner_mouth": 0.12}})
+    expected = Table.nine_foot().replace(cushion="mathavan", corner_mouth=0.12)
+    assert spec.table == expected.to_dict()
+    assert Spec.from_dict(spec.to_dict()) == spec
+    assert spec.published()["table"] == expected.to_dict()

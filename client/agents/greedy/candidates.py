@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from typing import Literal
 
 from client.agents.greedy.planned_action import PlannedAction
-from client.geometry import Point, Pot, azimuth, pots
+from client.geometry import Point, Pot, aimed, azimuth, pots
 from physics import Shot, Table, TableState, min_elevation
 from referee import SAFETY, Action, Call
 from referee.play.noise import SIGMA_B, SIGMA_PHI, SIGMA_THETA
@@ -72,7 +72,19 @@ class Candidates:
     def _pot(self, before: TableState, place: Point | None, pot: Pot) -> list[PlannedAction]:
         """One pot at several speeds and tip heights."""
         call = Call(pot.ball, pot.pocket)
-        return [plan for b in TIPS for plan in self._aimed(before, place, pot.phi, POT_SPEEDS, call, b)]
+        if not self._table.has_jaws:  # nothing squirts, and what is thrown stays within the mouth
+            return [plan for b in TIPS for plan in self._aimed(before, place, pot.phi, POT_SPEEDS, call, b)]
+        return [
+            plan
+            for b in TIPS
+            for v in POT_SPEEDS
+            for plan in self._aimed(before, place, self._azimuth(before, pot, v, b), (v,), call, b)
+        ]
+
+    def _azimuth(self, before: TableState, pot: Pot, v: float, b: float) -> float:
+        """Where to aim so that the pot's ball leaves for its pocket."""
+        theta = self._elevation(before, pot.phi, b)
+        return pot.phi if math.isnan(theta) else aimed(self._table, before, pot, Shot(v, pot.phi, theta, 0.0, b)).phi
 
     def _aimed(
         self,

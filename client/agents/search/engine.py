@@ -11,20 +11,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from client.agents.search import shots as at
-from physics import Table
+from client.geometry.openings import SIDES, entrance_of
+from physics import RealTable, Table
 from physics.constants import N_POCKETS
 from physics.engine import cache_folder, digest_of
 from physics.engine import kernels as physics_kernels
 
 _LOADING = threading.Lock()
-SIDES = (1, 4)
-"""The pockets in the middle of the long cushions."""
 
 
 @functools.cache
-def geometry() -> Any:
-    """The module of compiled geometry, ready; compiled once for a processor (some 10 s) and kept beside the physics."""
-    physics_kernels()
+def geometry(jaws: bool = False) -> Any:
+    """The module of compiled geometry, ready, and the physics of tables with straight mouths or with jaws.
+
+    Compiled once for a processor (some 10 s) and kept beside the physics.
+    """
+    physics_kernels(jaws)
     with _LOADING:  # numba's setting below is the whole process's
         module = _load()
         _call_once(module)
@@ -58,7 +60,7 @@ def _load() -> Any:
 @functools.lru_cache(maxsize=16)
 def table_row(table: Table) -> NDArray[np.float64]:
     """A table as the geometry takes it: see WIDTH and its fellows."""
-    row = np.empty(at.MOUTHS + at.PER_POCKET * N_POCKETS)
+    row = np.zeros(at.MOUTHS + at.PER_POCKET * N_POCKETS)
     row[[at.WIDTH, at.LENGTH, at.RADIUS]] = table.width, table.length, table.ball_radius
     row[[at.NOSE, at.CUE_LENGTH]] = table.nose_height, table.cue_length
     mouths = row[at.MOUTHS :].reshape(N_POCKETS, at.PER_POCKET)
@@ -70,4 +72,17 @@ def table_row(table: Table) -> NDArray[np.float64]:
         else:
             mouth[[at.INWARD_X, at.INWARD_Y]] = right / math.sqrt(2.0), up / math.sqrt(2.0)
             mouth[at.HALF_MOUTH] = (table.corner_reach - table.ball_radius) / math.sqrt(2.0)
-    return row
+    return _with_entrances(table, row) if isinstance(table, RealTable) else row
+
+
+def _with_entrances(table: RealTable, row: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The row with the holes, and behind it what the corners and the side pockets let in."""
+    corner, side = (
+        np.concatenate(([math.radians(known.first), math.radians(known.step), known.reach, len(known.low)], *known[3:]))
+        for known in (entrance_of(table, pocket) for pocket in (0, SIDES[0]))
+    )
+    mouths = row[at.MOUTHS :].reshape(N_POCKETS, at.PER_POCKET)
+    for mouth, pocket in zip(mouths, table.pockets, strict=True):
+        mouth[[at.HOLE_X, at.HOLE_Y]] = pocket.hole_centre
+        mouth[at.ENTRANCE] = len(row) + (len(corner) if pocket.number in SIDES else 0)
+    return np.concatenate((row, corner, side))

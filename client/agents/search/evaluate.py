@@ -9,7 +9,6 @@ from client.agents.search.budget import Budget
 from client.agents.search.shots import THETA, Floats, Shots, V
 from client.agents.search.value import Values
 from physics import Batch, Table
-from physics.constants import THETA_MAX, V_MAX
 from physics.shot import FIELDS
 from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
 from referee.rules.batch_rulings import read_verdicts
@@ -60,8 +59,8 @@ class Evaluator:
         copies = copies if self.noise > 0.0 else 1
         draws = self._spread * self._chance.standard_normal((copies, len(FIELDS)))
         strokes = (shots.strokes[:, None, :] + draws[None, :, :]).reshape(-1, len(FIELDS))
-        strokes[:, V] = np.clip(strokes[:, V], 0.0, V_MAX)
-        strokes[:, THETA] = np.clip(strokes[:, THETA], 0.0, THETA_MAX)
+        strokes[:, V] = np.clip(strokes[:, V], 0.0, self.table.v_max)
+        strokes[:, THETA] = np.clip(strokes[:, THETA], 0.0, self.table.theta_max)
         batch = self._run(np.repeat(shots.before(), copies, axis=0), strokes)
         return self._judged(shots, batch, copies, kitchen)
 

@@ -19,8 +19,11 @@ straight; how hard its layout is, minus the sum of the logarithms of its balls' 
 
 WIDTH, LENGTH, RADIUS, NOSE, CUE_LENGTH, MOUTHS = range(6)
 """Places in the row of a table (`engine.table_row`), m; from MOUTHS on, PER_POCKET numbers a pocket:"""
-MOUTH_X, MOUTH_Y, INWARD_X, INWARD_Y, HALF_MOUTH, PER_POCKET = range(6)
-"""middle of the mouth line, m; its inward normal; half its length, m."""
+MOUTH_X, MOUTH_Y, INWARD_X, INWARD_Y, HALF_MOUTH, HOLE_X, HOLE_Y, ENTRANCE, PER_POCKET = range(9)
+"""middle of the mouth line, m; its inward normal; half its length, m; on a table with jaws the hole's centre, m, and
+where in the row its entrance begins, 0 on others. An entrance (`client.geometry.entering`):"""
+FIRST, STEP, REACH, COUNT, EDGES = range(5)
+"""first direction and step, rad; greatest offset, m; how many directions; so many low edges and then high ones, m."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from client.agents.search import engine
-from client.agents.search.shots import THETA, Floats, Integers, Shots, Tables
+from client.agents.search.shots import PHI, THETA, Floats, Integers, Shots, Tables
+from client.geometry.strokes import azimuths
 from physics import Table
 from referee.play.noise import SIGMA_B, SIGMA_PHI, SIGMA_THETA
 from referee.rules.batch_rulings import target_balls
@@ -40,7 +41,8 @@ class Sight:
     """Plane geometry on one table under one level of noise."""
 
     def __init__(self, table: Table, noise: float) -> None:
-        self._kernels = engine.geometry()
+        self._kernels = engine.geometry(table.has_jaws)
+        self._table = table
         self._row = engine.table_row(table)
         self._theta_max = min(HIGHEST, table.theta_max)
         self._slack = SIGMAS_FREE * noise
@@ -63,6 +65,24 @@ class Sight:
         found = (pots.ball, pots.pocket, pots.phi, pots.margin, pots.chance)
         self._kernels.list_pots(self._row, np.ascontiguousarray(tables.positions), targets, self.sigma, found)
         return pots
+
+    def aimed(self, shots: Shots) -> Shots:
+        """Straight pots, turned so that the ball leaves along its lane whatever squirt, swerve and throw do.
+
+        On a table with straight mouths nothing squirts, and throw stays within the mouth: there they are left alone.
+        """
+        if not self._table.has_jaws or not len(shots):
+            return shots
+        rows, before = np.arange(len(shots)), shots.before()
+        cue, ball = before[:, 0], before[rows, shots.ball]
+        phi = np.radians(shots.strokes[:, PHI])
+        step = np.stack((np.cos(phi), np.sin(phi)), axis=1)
+        along = ((ball - cue) * step).sum(axis=1)
+        gap = (ball - cue) - along[:, None] * step
+        short = np.sqrt(np.maximum(4.0 * self._table.ball_radius**2 - (gap * gap).sum(axis=1), 0.0))
+        way = gap + short[:, None] * step  # from the ghost ball to the ball
+        leaving = np.degrees(np.arctan2(way[:, 1], way[:, 0]))
+        return self.raised(shots.aimed(azimuths(self._table, cue, ball, leaving, shots.strokes)))
 
     def raised(self, shots: Shots) -> Shots:
         """The strokes with the cue raised as far as it has to be; those that cannot be played are left out."""

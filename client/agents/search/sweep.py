@@ -22,8 +22,9 @@ HEIGHTS = (0.0, 9.0, -9.0)
 """mm of the tip, one after the other: plain, follow, draw."""
 THINNEST = 0.97
 """Of the sum of radii: how far beside its centre a ball is struck at the thinnest."""
-REBOUND = 1.5
-"""Tangent of the angle off a cushion over that of the angle to it: 0.9 of the speed along, 0.6 of that across it."""
+REBOUND, REBOUND_BESIDE_JAWS = 1.5, 1.05
+"""Tangent of the angle off a cushion over that of the angle to it: 0.9 of the speed along, 0.6 of that across it; and a
+typical one of cushions that know spin and speed, where it is 0.8 to 1.4."""
 AROUND = 7.0
 """Degrees to either side of a kick's reckoned direction that are tried: spin and speed bend it."""
 
@@ -49,12 +50,12 @@ def _straight(table: Table, cue: Floats, ball: Floats, offsets: Floats) -> Float
 
 def _kicks(table: Table, cue: Floats, ball: Floats) -> list[float]:
     """Directions (deg) that reach a ball off one cushion."""
-    radius = table.ball_radius
+    radius, rebound = table.ball_radius, REBOUND_BESIDE_JAWS if table.has_jaws else REBOUND
     found = []
     for axis, line in ((0, radius), (0, table.width - radius), (1, radius), (1, table.length - radius)):
         first, second = line - cue[axis], abs(line - ball[axis])
         along = ball[1 - axis] - cue[1 - axis]
-        across = abs(first) + REBOUND * second
+        across = abs(first) + rebound * second
         if across < 1e-6:
             continue
         step = [0.0, 0.0]

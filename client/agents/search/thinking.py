@@ -133,7 +133,7 @@ class TurnSearch:
         there = max(1, int((listed.chance > 0.0).sum()))
         affordable = min(POT_SHARE * budget.total / (AIMS + SCREENING), MOST_POTS)
         ways = int(np.clip(affordable / there, 4, MOST_WAYS)) if self._options.ways else 2
-        shots = sight.raised(in_all_ways(tables, listed, ways))
+        shots = sight.aimed(sight.raised(in_all_ways(tables, listed, ways)))
         return self._narrowed(centred(self._evaluator, shots, AIMS)) if len(shots) else None
 
     def _others(self, tables: Tables) -> Finalists | None:
@@ -180,7 +180,7 @@ class TurnSearch:
         """The likeliest straight pot by geometry alone, and if there is none, anything."""
         sight = self._evaluator.values.sight
         listed = sight.pots(tables, 1)
-        shots = sight.raised(in_all_ways(tables, listed, 1))
+        shots = sight.aimed(sight.raised(in_all_ways(tables, listed, 1)))
         if not len(shots):
             return self._anything(tables)
         best = int(listed.chance[shots.table, 0].argmax())

@@ -22,7 +22,7 @@ from physics.kernels.path import Path, along
 from physics.kernels.tolerances import DEEPER, SLOW_APPROACH, TOUCH
 
 
-class Jaw(NamedTuple):
+class JawOutline(NamedTuple):
     """A jaw in its coordinates, m: see ``physics.mouths``."""
 
     nose_end: float

@@ -14,7 +14,7 @@ import math
 from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store_integer
 from physics.kernels.detect.boundary import Coming, lines_in_reach
-from physics.kernels.detect.jaws import Jaw, drops, falling, from_facing, meets_facing, meets_horn
+from physics.kernels.detect.jaws import JawOutline, drops, falling, from_facing, meets_facing, meets_horn
 from physics.kernels.detect.line import crossing
 from physics.kernels.path import Path, along
 from physics.kernels.tolerances import TOUCH
@@ -25,7 +25,7 @@ NO_MOUTH = -1
 @small_kernel
 def jaw_at(s, mouth):
     """The jaw of a kind of mouth: P_CORNER_JAW or P_SIDE_JAW."""
-    return Jaw(
+    return JawOutline(
         load(s.p, mouth + at.JAW_NOSE_END),
         load(s.p, mouth + at.JAW_HORN),
         load(s.p, mouth + at.JAW_START_S),

@@ -84,6 +84,7 @@ def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command],
     context.failpoint("shot-admitted")
     with _told_why():
         asked = read(command)
+        _require_range(live, asked.action)
         budget.require_left(live, seat, asked.simulated)  # before any noise is drawn
         stroke = _played(live, asked.action, may_be_long)
     end = games.TurnEnd(live.clock.charge_of_action(command.arrived), games.next_move(live))
@@ -113,6 +114,16 @@ def _played(live: LiveGame, action: Action, may_be_long: bool) -> Stroke:
     if stroke.result is not None and stroke.result.status is Status.EVENT_LIMIT:
         raise IsLong
     return stroke
+
+
+def _require_range(live: LiveGame, action: Action) -> None:
+    """Raise `Invalid` for a shot beyond what the match's table allows."""
+    if action.shot is None:
+        return
+    try:
+        action.shot.refuse_beyond(live.rules.table)
+    except PhysicsError as beyond:
+        raise errors.invalid_physics(beyond, ("shot",)) from beyond
 
 
 def _found(context: Context, connection: Connection, game_id: str, caller: Caller) -> LiveGame:

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.require import ROOT, require
@@ -55,7 +56,7 @@ def asked(command, tmp_path):
 
     def ask(program, silence=20.0):
         agent = StdioAgent(command(program), logs=tmp_path / "logs", silence=silence)
-        outcomes = []
+        outcomes: list[Any] = []
 
         class Asking(client.Agent):
             def choose(self, view):
@@ -64,7 +65,7 @@ def asked(command, tmp_path):
                     outcomes.append(agent.choose(view))
                 except errors.AgentFailed as error:
                     outcomes.append(error)
-                return client.Action(decision="concede")
+                return client.Action(decision=client.Decision.CONCEDE)
 
         client.play(Asking, Asking, seed=1)
         agent._end()
@@ -154,7 +155,7 @@ assert "min_elevation, simulate, simulate_batch" in answers[4]["reason"]
 assert "phi" in answers[5]["reason"]
 say('{"decision": "concede"}')
 """
-    assert asked(program) == client.Action(decision="concede")
+    assert asked(program) == client.Action(decision=client.Decision.CONCEDE)
 
 
 def test_simulated_shots_count_against_the_budget(command, tmp_path):
@@ -199,8 +200,7 @@ def test_what_a_command_does_wrong_is_said(asked, program, words):
 )
 def test_silence_ends_with_the_time(asked, program, words):
     started = time.monotonic()
-    with pytest.raises(AssertionError, match=words):
-        raise AssertionError(asked(program, silence=0.5))
+    assert re.search(words, str(asked(program, silence=0.5)))
     assert time.monotonic() - started < 30
 
 

@@ -114,7 +114,7 @@ BAD = {
 """Entrants that cannot be imported, made or started, and why."""
 
 
-@pytest.mark.parametrize("dry", [True, False], ids=["dry run", "run"])
+@pytest.mark.parametrize("dry", [pytest.param(True, marks=pytest.mark.slow), False], ids=["dry run", "run"])
 def test_entrants_that_cannot_be_started_are_named_before_the_first_game(cli, tmp_path, monkeypatch, dry):
     """Seen: the dry run said how long it would take, and the event went on to its end with every game of them lost."""
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))

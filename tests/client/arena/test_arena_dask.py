@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 from importlib.util import find_spec
+from typing import Any
 
 import pytest
 from support.require import require
@@ -27,7 +28,8 @@ CUP = {
 def cluster(tmp_path):
     """Address of a scheduler, and its two workers' processes."""
     require(find_spec("distributed") is not None, "distributed, of the cluster extra")
-    address_file, started = tmp_path / "scheduler.json", []
+    address_file = tmp_path / "scheduler.json"
+    started: list[Any] = []
     environment = os.environ | {"DASK_DISTRIBUTED__WORKER__MEMORY__TERMINATE": "False", "PYTHONWARNINGS": "ignore"}
 
     def start(program, *arguments):
@@ -65,6 +67,7 @@ def files(directory):
     return {path.name: path.read_bytes() for path in directory.games.glob("*.json*")}
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("default")
 def test_a_worker_killed_in_the_middle_loses_nothing_and_nothing_is_played_twice(tmp_path, cluster):
     address, workers = cluster

@@ -9,14 +9,16 @@ import sys
 import time
 from concurrent.futures import Future
 from concurrent.futures.process import BrokenProcessPool
+from typing import Any
 
 import pytest
 
 from client.arena.directory import EventDirectory, EventError
-from client.arena.executors import InProcess, pool_of
+from client.arena.executors import InProcess, Processes, pool_of
 from client.arena.runner import Runner
 from client.arena.tasks import PairDone
 from client.arena.terms import Terms
+from physics import Table
 from referee.record import verify_record
 from tournament import Tournament, forfeit
 from tournament.ledger import Ledger
@@ -62,7 +64,7 @@ class Forfeiting(InProcess):
     """A pool in which the second player never comes."""
 
     def submit(self, task):
-        future = Future()
+        future: Future[PairDone] = Future()
         results = tuple(forfeit(game.due, game.due.pair.players[1]) for game in task.games)
         future.set_result(PairDone(results, (), ()))
         return future
@@ -139,6 +141,7 @@ def check_kills(tmp_path, whole, kills, executor):
     assert list(directory.games.glob("*.part")) == []
 
 
+@pytest.mark.slow
 def test_an_event_killed_at_many_instants_ends_like_one_that_was_not(tmp_path, whole):
     check_kills(tmp_path, whole, 3, "inline")
 
@@ -174,6 +177,7 @@ def test_ctrl_c_leaves_an_event_that_goes_on(tmp_path, whole):
     assert files(directory) == whole[1]
 
 
+@pytest.mark.slow
 def test_a_full_disk_costs_nothing_but_time(tmp_path, whole):
     """A file of limited size stands for a disk without room: a write fails somewhere within a line."""
     directory = begin(tmp_path / "cup")
@@ -258,7 +262,7 @@ def test_an_aborted_event_is_over_for_good(tmp_path):
 def test_who_is_disqualified_forfeits_what_was_begun_and_is_paired_no_more(tmp_path):
     """The first pair stands; the second one is on the board by then, the rest of the event not."""
     directory = begin(tmp_path / "cup", pairs=2)
-    played = []
+    played: list[Any] = []
 
     def decide(ledger, _running):
         if ledger.event.counted and not played:
@@ -299,7 +303,7 @@ class Dying(InProcess):
         if task.pair != self.pair or self.times == 0:
             return super().submit(task)
         self.times -= 1
-        future = Future()
+        future: Future[PairDone] = Future()
         future.set_exception(BrokenProcessPool("a worker died"))
         return future
 
@@ -316,7 +320,8 @@ def test_a_pair_whose_worker_died_is_played_by_another(tmp_path, whole):
 def test_a_worker_killed_in_the_middle_costs_nothing(tmp_path, whole):
     directory = begin(tmp_path / "cup")
     with pool_of("processes", 2) as pool:
-        killed = []
+        assert isinstance(pool, Processes)
+        killed: list[int] = []
 
         def kill_one(_ledger, running):
             if running and not killed and activity(directory):
@@ -329,6 +334,7 @@ def test_a_worker_killed_in_the_middle_costs_nothing(tmp_path, whole):
     assert files(directory) == whole[1]
 
 
+@pytest.mark.slow
 def test_the_sequential_test_is_evaluated_in_the_order_of_pairs(tmp_path):
     """Whatever else was finished by then: the counted games are those up to the decision."""
     sprt = {
@@ -344,3 +350,35 @@ def test_the_sequential_test_is_evaluated_in_the_order_of_pairs(tmp_path):
     with pool_of("processes", 2) as pool:
         other = run(two, pool)
     assert other.event.counted == ledger.event.counted
+
+
+def test_an_event_on_a_table_with_jaws(tmp_path):
+    """By name and parameters: the file's terms, the games, their records and a second run of the same event agree."""
+    table = {"name": "nine_foot", "cushion": "mathavan", "corner_mouth": 0.12}
+    values = {"entrants": ["random", {"name": "other", "agent": "random"}], "table": table}
+    ledger = run(first := begin(tmp_path / "one", **values))
+    assert ledger.event.finished
+    expected = Table.nine_foot().replace(cushion="mathavan", corner_mouth=0.12)
+    for path in first.games.glob("*.jsonl"):
+        record = path.read_text().splitlines()
+        assert verify_record(record).ok
+        assert Table.from_dict(json.loads(record[0])["table"]) == expected
+    run(second := begin(tmp_path / "two", **values))
+    assert files(first) == files(second)
+
+
+def test_entrants_are_tried_on_the_events_table(tmp_path, monkeypatch):
+    """Seen: every agent was started on the Olympiad's table, whatever the event was played on."""
+    (tmp_path / "asking.py").write_text(
+        "import client\n\n\nclass Asking(client.Agent):\n"
+        "    def game_started(self, view):\n"
+        "        raise RuntimeError('started on ' + view.table_model().name)\n\n"
+        "    def choose(self, view):\n"
+        "        return client.Action(decision='concede')\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    directory = begin(
+        tmp_path / "cup", entrants=["random", {"name": "b", "agent": "asking:Asking"}], table="seven_foot"
+    )
+    with pytest.raises(EventError, match="started on seven_foot"):
+        run(directory)

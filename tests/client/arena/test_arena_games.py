@@ -8,6 +8,7 @@ import resource
 import sys
 import textwrap
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -147,17 +148,17 @@ def test_a_command_is_told_why_its_action_was_refused(tmp_path):
 
 
 def test_an_agent_inside_is_told_why_its_action_was_refused(tmp_path, caplog):
-    told = []
+    told: list[Any] = []
 
     class Stubborn(client.Agent):
         def choose(self, view):
-            return client.Action(decision="concede" if told else "rerack_and_break")
+            return client.Action(decision=client.Decision.CONCEDE if told else client.Decision.RERACK_AND_BREAK)
 
         def refused(self, view, reason):
             told.append((view.my_turn, reason))
             raise RuntimeError("what a hook raises is logged")
 
-    found = []
+    found: list[Any] = []
     (task, *_) = games_of(terms_of())
     result, _ = play(task, (AgentSession(Stubborn), AgentSession(Stubborn)), None, reports_into(found))
     assert result.reason is EndReason.CONCESSION
@@ -287,7 +288,7 @@ def test_a_game_broken_off_goes_on_where_it_was(tmp_path, at, values):
         play(task, failing(at), tmp_path, reports_into([]))
     part = (tmp_path / f"{task.due.id}.part").read_bytes() if at else b""
     assert part.count(b"\n") == (at + 1 if at else 0)
-    reports = []
+    reports: list[Any] = []
     result, again = play(task, seats(), tmp_path, reports_into(reports))
     if values:
         assert again.encode().startswith(part)  # the moves made stand, with their times
@@ -333,12 +334,13 @@ class BrokenOff:
         return getattr(self.seat, name)
 
 
+@pytest.mark.slow
 def test_a_process_goes_on_with_the_budget_it_had_left(tmp_path):
     """Seen: with clocks the new process counts from 0, and was refused until it had simulated as much once more."""
     (tmp_path / "simulating.py").write_text(SIMULATING)
     hosting = Hosting("simulating:Simulating", environment={"PYTHONPATH": str(tmp_path)})
     (task, _) = games_of(terms_of(seconds=1000.0, simulated_shots=5000))
-    reports = []
+    reports: list[Any] = []
 
     def attempt(folder, number, wrapped=lambda seat: seat):
         with contextlib.ExitStack() as stack:
@@ -378,7 +380,7 @@ def test_moves_made_stand_even_if_the_player_thinks_otherwise_now(tmp_path):
     with pytest.raises(Unplugged):
         play(task, failing(9), tmp_path, reports_into([]))
     part = (tmp_path / f"{task.due.id}.part").read_text()
-    reports = []
+    reports: list[Any] = []
     _, text = play(task, seats(seed=2), tmp_path, reports_into(reports))
     assert text.startswith(part)
     assert any("otherwise the second time" in what for _, what in reports)
@@ -390,7 +392,7 @@ def test_a_game_begun_by_another_engine_is_played_from_its_first_stroke(tmp_path
     other = games_of(terms_of(seed=4))[0]
     with pytest.raises(Unplugged):
         play(other, failing(9), tmp_path, reports_into([]))
-    reports = []
+    reports: list[Any] = []
     assert play(task, seats(), tmp_path, reports_into(reports)) == whole
     assert any("first stroke" in what for _, what in reports)
     assert len(list(tmp_path.glob("*.diverged"))) == 1

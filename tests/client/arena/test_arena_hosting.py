@@ -8,6 +8,7 @@ import os
 import signal
 import subprocess
 import sys
+from typing import Any
 
 import pytest
 
@@ -81,6 +82,7 @@ def test_a_bad_event_file_is_one_line_that_names_the_fault(tmp_path, text, named
         Terms.read(tmp_path / "cup.toml")
 
 
+ODD: tuple[Any, ...]
 ODD = (None, True, -1, 0, 10**400, math.inf, math.nan, "", "x" * 10**5, "\0", "\ud800", [], [[]], {}, {1: 2})
 ODD += ({"levels": "x"}, {"range": 5}, {"range": [1]}, {"elo0": "x"}, datetime.date(2026, 1, 1), b"x")
 SPEC = [each.name for each in dataclasses.fields(Spec)]

@@ -11,6 +11,8 @@ import time
 import urllib.error
 import urllib.request
 import uuid
+from collections.abc import Iterator
+from typing import Any
 
 URL, TOKEN = os.environ["POOLIAD_URL"], os.environ["POOLIAD_TOKEN"]
 FAULT = sys.argv[1]
@@ -20,8 +22,9 @@ if FAULT == "unstartable":
     sys.exit("I was not installed as I should be")
 
 
-def ask(method, path, body=None, **headers):
+def ask(method: str, path: str, body: Any = None, **headers: str) -> tuple[int, bytes]:
     """Status and content of an answer; 0 when none came."""
+    content: bytes | Iterator[bytes] | None
     content = None if body is None else body if isinstance(body, bytes) else json.dumps(body).encode()
     sent = {"Authorization": f"Bearer {TOKEN}", "Content-Type": "application/json"} | headers
     if content is not None and sys.argv[2:] == ["chunks"]:
@@ -36,7 +39,7 @@ def ask(method, path, body=None, **headers):
         return 0, b""
 
 
-def choose(view):
+def choose(view: dict[str, Any]) -> tuple[str, dict[str, Any]]:
     """An action that is legal in the situations of these tests: straight at the first ball that may be called."""
     if view["allowed"]["decisions"]:
         return "decisions", {"decision": view["allowed"]["decisions"][0]}
@@ -46,12 +49,12 @@ def choose(view):
     return "shots", {"shot": shot, "call": "safety", "cue_ball": None}
 
 
-def answering(version):
+def answering(version: int) -> dict[str, str]:
     """The headers of a well-formed action."""
     return {"If-Match": f'"{version}"', "Idempotency-Key": uuid.uuid4().hex}
 
 
-def play(view):
+def play(view: dict[str, Any]) -> None:
     """Act on a view, in the way that is asked for."""
     verb, action = choose(view)
     path, proper = f"/v1/games/{view['game']}/", answering(view["version"])

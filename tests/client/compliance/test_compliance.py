@@ -99,6 +99,7 @@ def test_what_cannot_be_started_is_called_so_at_once_and_once(server_installed, 
     assert words in report["faults"][0]["words"]
 
 
+@pytest.mark.slow
 def test_a_commands_standard_error_is_where_the_output_says(server_installed, tmp_path):
     agent = f"stdio:{sys.executable} /no/such/script.py"
     _, (report,) = in_python("--out", str(tmp_path), agent=agent)
@@ -115,6 +116,7 @@ def test_the_same_agent_without_a_fault_passes(hall, tmp_path):
     assert [fault for report in reports for fault in report.faults] == []
 
 
+@pytest.mark.slow
 def test_a_shipped_agent_passes_everything(server_installed):
     command = [sys.executable, "-m", "client.cli", "agent", "check", "random", "--json"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)

@@ -4,6 +4,7 @@ import subprocess
 import sys
 from collections import Counter
 from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 import pytest
@@ -55,7 +56,7 @@ def test_pettingzoo_finds_the_seed_obeyed():
 
 
 def test_gymnasium_finds_no_fault():
-    spec = gymnasium.envs.registration.EnvSpec("EightBall-v0", entry_point=EightBallEnv)
+    spec = gymnasium.envs.registration.EnvSpec("EightBall-v0", entry_point="client.learn:EightBallEnv")
     check_env(gymnasium.make(spec, render_mode="ansi").unwrapped)
 
 
@@ -67,7 +68,8 @@ def test_every_vector_is_a_legal_action(game, vector):
 @given(st.sampled_from(SCENES), st.integers(0, 1))
 def test_every_observation_is_in_its_space(game, seat):
     seen = observe(RULES.table, game, seat)
-    assert (seen.shape, seen.dtype) == ((OBSERVATION_SIZE,), np.float32)
+    assert seen.shape == (OBSERVATION_SIZE,)
+    assert seen.dtype == np.float32
     assert ((seen >= 0.0) & (seen <= 1.0)).all()
 
 
@@ -108,7 +110,8 @@ def test_games_played_as_batches_are_those_of_the_referee_bit_for_bit():
     chance, noise = np.random.default_rng(5), NoiseModel(1.0)
     rules = EightBall(RULES.table, Limits(dry_visits=5, replays=1, strokes=40))
     seeds = [MatchSeed.of(number).game(0) for number in range(4 * len(SCENES))]
-    games, ends, played = SCENES * 4, Counter(), 0
+    games, played = SCENES * 4, 0
+    ends: Counter[Any] = Counter()
     while games:
         vectors = [chance.uniform(-1, 1, ACTION_SIZE) for _ in games]
         alone = [

@@ -2,7 +2,6 @@
 
 import json
 import pickle
-from typing import Any
 
 import pytest
 
@@ -37,7 +36,7 @@ GAMES = [
 
 
 @pytest.mark.parametrize("game", GAMES, ids=lambda game: game.phase.value)
-def test_game_round_trips_through_json_and_pickle(game: Game) -> None:
+def test_game_round_trips_through_json_and_pickle(game):
     assert Game.from_dict(json.loads(json.dumps(game.to_dict()))) == game
     assert pickle.loads(pickle.dumps(game)) == game
     assert hash(game) == hash(Game.from_dict(game.to_dict()))
@@ -67,17 +66,17 @@ def test_game_round_trips_through_json_and_pickle(game: Game) -> None:
         ("outcome", 5),
     ],
 )
-def test_bad_game_data_names_the_field(field: str, value: Any) -> None:
+def test_bad_game_data_names_the_field(field, value):
     with pytest.raises(InvalidGame, match=field):
         Game.from_dict(GAMES[0].to_dict() | {field: value})
 
 
-def test_bad_positions_are_the_physics_to_name() -> None:
+def test_bad_positions_are_the_physics_to_name():
     with pytest.raises(InvalidState):
         Game.from_dict(GAMES[0].to_dict() | {"state": {"0": [0.5, 0.5], "1": [0.5, 0.51]}})
 
 
-def test_missing_and_unknown_keys_are_named() -> None:
+def test_missing_and_unknown_keys_are_named():
     data = GAMES[0].to_dict()
     with pytest.raises(InvalidGame, match="mood"):
         Game.from_dict(data | {"mood": "good"})
@@ -94,11 +93,11 @@ def test_missing_and_unknown_keys_are_named() -> None:
         Action(decision=Decision.ACCEPT_TABLE),
     ],
 )
-def test_action_round_trips_through_json(action: Action) -> None:
+def test_action_round_trips_through_json(action):
     assert Action.from_dict(json.loads(json.dumps(action.to_dict()))) == action
 
 
-def test_action_takes_plain_values() -> None:
+def test_action_takes_plain_values():
     action = Action(shot=SHOT, call={"ball": 3, "pocket": 5}, cue_ball=[0.5, 1.8])  # type: ignore[arg-type]
     assert action == Action(shot=SHOT, call=Call(3, 5), cue_ball=(0.5, 1.8))
     assert Action(decision="concede").decision is Decision.CONCEDE  # type: ignore[arg-type]
@@ -126,14 +125,14 @@ def test_action_takes_plain_values() -> None:
         ("decision", {"decision": 3}),
     ],
 )
-def test_malformed_action_is_refused_by_name(field: str, arguments: dict[str, Any]) -> None:
+def test_malformed_action_is_refused_by_name(field, arguments):
     with pytest.raises(InvalidAction) as caught:
         Action(**arguments)
     assert caught.value.field == field
     assert pickle.loads(pickle.dumps(caught.value)).allowed == caught.value.allowed
 
 
-def test_action_from_unknown_keys_or_bad_shot() -> None:
+def test_action_from_unknown_keys_or_bad_shot():
     with pytest.raises(InvalidAction, match="chalk"):
         Action.from_dict({"shot": SHOT.to_dict(), "chalk": True})
     with pytest.raises(InvalidAction, match="an object"):
@@ -142,13 +141,13 @@ def test_action_from_unknown_keys_or_bad_shot() -> None:
         Action.from_dict({"shot": {"v": "fast", "phi": 0.0}})
 
 
-def test_refusal_shows_nan_as_text() -> None:
+def test_refusal_shows_nan_as_text():
     refusal = Refusal("R37", "cue_ball", (float("nan"), 1.0), "two finite numbers")
     assert json.loads(json.dumps(refusal.to_dict(), allow_nan=False))["value"] == ["nan", 1.0]
     assert "nan" in refusal.words
 
 
-def test_evidence_says_only_what_it_has() -> None:
+def test_evidence_says_only_what_it_has():
     assert Evidence("R34", searched=(0, 8)).to_dict() == {"rule": "R34", "searched": [0, 8]}
     assert Evidence("R32", (5,), ball=0, pocket=3).to_dict() == {
         "rule": "R32",
@@ -159,7 +158,7 @@ def test_evidence_says_only_what_it_has() -> None:
 
 
 @pytest.mark.parametrize(("number", "name"), list(enumerate(("SW", "W", "NW", "NE", "E", "SE"))))
-def test_a_pocket_may_be_named(number: int, name: str) -> None:
+def test_a_pocket_may_be_named(number, name):
     """The names are those of CONTRACT.md, round from the origin; what is kept is the number."""
     assert Call(3, name) == Call(3, number)
     assert Call(3, name).to_dict() == {"ball": 3, "pocket": number}
@@ -169,12 +168,12 @@ def test_a_pocket_may_be_named(number: int, name: str) -> None:
 
 
 @pytest.mark.parametrize("pocket", ["sw", "", "0", "SOUTH", None, 1.0, True])
-def test_a_pocket_that_is_none_is_answered_with_those_there_are(pocket: Any) -> None:
+def test_a_pocket_that_is_none_is_answered_with_those_there_are(pocket):
     with pytest.raises(InvalidAction, match=r"call.pocket = .*: must be 0 to 5, or SW, W, NW, NE, E, SE"):
         Call(3, pocket)
 
 
 @pytest.mark.parametrize("call", [(3,), (3, 0, 1), (), "3 SW"])
-def test_a_call_of_another_form_is_explained(call: Any) -> None:
+def test_a_call_of_another_form_is_explained(call):
     with pytest.raises(InvalidAction, match=r"call = .*: must be a Call, \(ball, pocket\)"):
         Action(shot=Shot(1.0, 2.0), call=call)

@@ -2,6 +2,7 @@
 
 import pickle
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -20,7 +21,7 @@ SOFT_BREAK = Action(Shot(0.3, 270.0, 5.0), cue_ball=(0.558, 1.75))
 
 def position(balls, **changes):
     """A game in play with these balls, player 0 to shoot."""
-    in_play = {"state": TableState.from_positions(balls), "phase": Phase.PLAY, "cue_ball_in_hand": None}
+    in_play: dict[str, Any] = {"state": TableState.from_positions(balls), "phase": Phase.PLAY, "cue_ball_in_hand": None}
     return replace(start_game(RULES, SEEDS), **(in_play | changes))
 
 
@@ -69,7 +70,7 @@ def test_all_refusals_come_at_once_and_no_noise_is_drawn(monkeypatch):
 def test_a_refusal_crosses_process_borders():
     game = start_game(RULES, SEEDS)
     with pytest.raises(Refused) as caught:
-        play_stroke(RULES, game, Action(decision="ball_in_hand"), SEEDS, NOISY)
+        play_stroke(RULES, game, Action(decision=Decision.BALL_IN_HAND), SEEDS, NOISY)
     assert pickle.loads(pickle.dumps(caught.value)).refusals == caught.value.refusals
 
 
@@ -138,7 +139,7 @@ def test_noise_goes_on_after_a_new_rack():
         shots.append(broken.shot)
         if broken.game.phase is not Phase.DECISION:
             pytest.fail(f"a soft break was legal: {broken.ruling.words}")
-        game = play_stroke(RULES, broken.game, Action(decision="rerack_and_break"), SEEDS, NOISY).game
+        game = play_stroke(RULES, broken.game, Action(decision=Decision.RERACK_AND_BREAK), SEEDS, NOISY).game
     assert len(set(shots)) == 3
     assert shots == [NOISY.perturb(SOFT_BREAK.shot, SEEDS.noise_seed, n) for n in range(3)]
 
@@ -166,7 +167,7 @@ def test_negative_zeros_do_not_reach_the_record():
 
 def test_conceding_ends_the_game():
     """R48."""
-    stroke = play_stroke(RULES, start_game(RULES, SEEDS), Action(decision="concede"), SEEDS, NOISY)
+    stroke = play_stroke(RULES, start_game(RULES, SEEDS), Action(decision=Decision.CONCEDE), SEEDS, NOISY)
     assert stroke.game.is_over
     assert stroke.game.outcome.winner == 1
 

@@ -7,6 +7,7 @@ import pytest
 import physics
 from client.local_game import play_game
 from referee import Action, EightBall, NoiseModel
+from referee.game import Decision
 from referee.play import MatchSeed
 from referee.play.budget import budgets
 from referee.record import Chain, RecordVerdict, verify_record
@@ -20,7 +21,7 @@ def lines(allowed, spent):
     def chair(seat):
         def choose(view):
             budget[seat].spend(spent[seat])
-            return BREAK if view.phase == "break" else Action(decision="concede")
+            return BREAK if view.phase == "break" else Action(decision=Decision.CONCEDE)
 
         return choose
 

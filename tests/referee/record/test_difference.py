@@ -1,6 +1,7 @@
 """The first difference: named by stroke, event, ball and field, with both values."""
 
 import copy
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -8,7 +9,7 @@ from hypothesis import strategies as st
 
 from referee.record.difference import first_difference
 
-ENTRY = {
+ENTRY: dict[str, Any] = {
     "stroke": 3,
     "shot": {"v": 2.5, "phi": 10.0},
     "events": [
@@ -34,7 +35,7 @@ ENTRY = {
 
 def changed(path, value):
     entry = copy.deepcopy(ENTRY)
-    node = entry
+    node: Any = entry
     for step in path[:-1]:
         node = node[step]
     node[path[-1]] = value

@@ -15,7 +15,7 @@ from support.players import Potter
 
 from client.local_game import play_game
 from physics import Shot, Table
-from referee.game import Action, EndReason, Outcome
+from referee.game import Action, Decision, EndReason, Outcome
 from referee.play import MatchSeed, NoiseModel, play_stroke, start_game
 from referee.record import (
     Chain,
@@ -428,7 +428,7 @@ def test_decisions_and_new_racks_are_part_of_the_record():
     start = start_game(RULES, seeds)
     soft = Action(Shot(0.3, 270.0, 5.0), cue_ball=(0.558, 1.75))
     strokes = [play_stroke(RULES, start, soft, seeds, noise)]
-    for action in (Action(decision="rerack_and_break"), Action(decision="concede")):
+    for action in (Action(decision=Decision.RERACK_AND_BREAK), Action(decision=Decision.CONCEDE)):
         strokes.append(play_stroke(RULES, strokes[-1].game, action, seeds, noise))
     terms = MatchTerms("m", 1, RULES, noise, first_breaker=0)
     header = Header.of(terms, start, seeds, game="g", players=("ann", "bob"))

@@ -14,7 +14,7 @@ from referee.game import Action, Call
 BALLS = {0: (0.6, 1.118), 3: (0.9, 1.118), 5: (0.8, 0.4), 8: (0.3, 0.5), 11: (0.5, 0.4), 12: (0.3, 1.9)}
 
 
-def test_batch_of_strokes_is_ruled_like_single_ones() -> None:
+def test_batch_of_strokes_is_ruled_like_single_ones():
     random = Random(1)
     game = situation(BALLS, groups=SOLIDS)
     shots = [
@@ -34,7 +34,7 @@ def test_batch_of_strokes_is_ruled_like_single_ones() -> None:
     assert any(ruling.made for ruling in rulings)
 
 
-def test_one_action_a_row() -> None:
+def test_one_action_a_row():
     game = situation(BALLS, groups=SOLIDS)
     batch = physics.simulate_batch(TABLE, game.state, np.array([[1.0, 0.0, 10.0, 0.0, 0.0]]))
     with pytest.raises(InvalidAction, match="1 actions, one for each row"):

@@ -47,7 +47,7 @@ def objects_pocketed(played: Played) -> list[int]:
 
 
 @pytest.mark.parametrize("v", [0.9, 1.5, 2.5, 4.0, 10.0])
-def test_legal_break_is_four_different_object_balls_or_a_pocketed_one(v: float) -> None:
+def test_legal_break_is_four_different_object_balls_or_a_pocketed_one(v):
     """R9, counted independently over the event trace. Known error: rail contacts counted."""
     for seed in range(12):
         played = racked_break(seed, v)
@@ -60,7 +60,7 @@ def test_legal_break_is_four_different_object_balls_or_a_pocketed_one(v: float) 
         assert ("R12" in played.ruling.rules or "R12a" in played.ruling.rules) is not expected
 
 
-def test_one_ball_round_the_table_does_not_make_a_break_legal() -> None:
+def test_one_ball_round_the_table_does_not_make_a_break_legal():
     """R9, known error: six rail contacts of the cue ball and one object ball are still one object ball."""
     balls = {0: (0.7, 1.8), 3: (0.71, 0.9), 8: (0.15, 0.15 + 1.0), 11: (0.15, 1.6)}
     played = play(to_break(balls), stroke(balls, 270.0, 6.0))
@@ -71,7 +71,7 @@ def test_one_ball_round_the_table_does_not_make_a_break_legal() -> None:
     assert played.ruling.rules[0] == "R12"
 
 
-def test_legal_break_with_a_ball_lets_the_breaker_go_on() -> None:
+def test_legal_break_with_a_ball_lets_the_breaker_go_on():
     """R10, R18."""
     played = next(
         one for one in breaks() if objects_pocketed(one) and not one.ruling.fouls and 8 not in objects_pocketed(one)
@@ -82,7 +82,7 @@ def test_legal_break_with_a_ball_lets_the_breaker_go_on() -> None:
     assert [one.ball for one in played.proof("R10")] == sorted(objects_pocketed(played))
 
 
-def test_legal_break_without_a_ball_passes_the_turn() -> None:
+def test_legal_break_without_a_ball_passes_the_turn():
     """R11, R18."""
     played = next(
         one
@@ -96,7 +96,7 @@ def test_legal_break_without_a_ball_passes_the_turn() -> None:
     assert len({one.ball for one in played.proof("R9")}) >= 4
 
 
-def test_break_on_a_set_up_table_leaves_it_open() -> None:
+def test_break_on_a_set_up_table_leaves_it_open():
     """R18: even two solids from the break fix nothing."""
     played = play(to_break(CORNERED), pot(CORNERED, 3, 5, v=3.0))
     assert objects_pocketed(played) == [3]
@@ -104,7 +104,7 @@ def test_break_on_a_set_up_table_leaves_it_open() -> None:
     assert played.ruling.rules[:2] == ("R10", "R18")
 
 
-def test_illegal_break_offers_three_choices() -> None:
+def test_illegal_break_offers_three_choices():
     """R12: no foul, no ball in hand; the cue ball lies where it lies."""
     played = racked_break(1, 0.9)
     assert played.ruling.fouls == ()
@@ -117,7 +117,7 @@ def test_illegal_break_offers_three_choices() -> None:
     )
 
 
-def test_accepting_an_illegal_break_gives_no_ball_in_hand() -> None:
+def test_accepting_an_illegal_break_gives_no_ball_in_hand():
     """R12, known error."""
     played = racked_break(1, 0.9)
     game = decide(played, Decision.ACCEPT_TABLE)
@@ -126,7 +126,7 @@ def test_accepting_an_illegal_break_gives_no_ball_in_hand() -> None:
 
 
 @pytest.mark.parametrize(("decision", "breaker"), [(Decision.RERACK_AND_BREAK, 1), (Decision.OPPONENT_RERACKS, 0)])
-def test_reracks(decision: Decision, breaker: int) -> None:
+def test_reracks(decision, breaker):
     """R12: who breaks the new rack; the game asks its driver for one."""
     played = racked_break(1, 0.9)
     ruling = RULES.apply(played.game, Action(decision=decision))
@@ -138,7 +138,7 @@ def test_reracks(decision: Decision, breaker: int) -> None:
     assert (game.rack, game.stroke, game.breaker) == (1, 1, 0)
 
 
-def test_break_must_strike_a_ball() -> None:
+def test_break_must_strike_a_ball():
     """R8, R34, R12a: an illegal break with a foul offers the re-racks and what the foul gives."""
     game = RULES.new_game(1)
     balls = {ball: tuple(game.state.positions[ball].tolist()) for ball in game.state.balls}
@@ -155,7 +155,7 @@ def test_break_must_strike_a_ball() -> None:
     assert (game.turn, game.cue_ball_in_hand, game.phase) == (1, KITCHEN, Phase.PLAY)
 
 
-def test_scratch_on_an_illegal_break() -> None:
+def test_scratch_on_an_illegal_break():
     """R12a with R15: there is no position to accept."""
     balls = {0: (0.9, 2.0), 3: (0.5, 0.5), 8: (0.3, 0.3)}
     played = play(to_break(balls), stroke(balls, 45.0, 2.0))
@@ -170,7 +170,7 @@ def test_scratch_on_an_illegal_break() -> None:
     assert RULES.legal(game).must_place
 
 
-def test_eight_on_the_break_is_the_breakers_choice() -> None:
+def test_eight_on_the_break_is_the_breakers_choice():
     """R13, R30, R31; never the end of the game."""
     played = play(to_break(CORNERED_EIGHT), pot(CORNERED_EIGHT, 8, 5, v=3.0))
     assert objects_pocketed(played) == [8]
@@ -184,7 +184,7 @@ def test_eight_on_the_break_is_the_breakers_choice() -> None:
     assert decide(played, Decision.RERACK_AND_BREAK).turn == 0
 
 
-def test_eight_is_spotted_behind_the_ball_on_the_foot_spot() -> None:
+def test_eight_is_spotted_behind_the_ball_on_the_foot_spot():
     """R31: touching it, on the long string, towards the foot cushion."""
     balls = CORNERED_EIGHT | {3: TABLE.foot_spot}
     played = play(to_break(balls), pot(balls, 8, 5, v=3.0))
@@ -196,7 +196,7 @@ def test_eight_is_spotted_behind_the_ball_on_the_foot_spot() -> None:
     assert eight[1] == pytest.approx(TABLE.foot_spot[1] - 2 * TABLE.ball_radius, abs=1e-15)
 
 
-def test_eight_and_scratch_on_the_break_is_the_opponents_choice() -> None:
+def test_eight_and_scratch_on_the_break_is_the_opponents_choice():
     """R14."""
     played = play(to_break(CORNERED_EIGHT), pot(CORNERED_EIGHT, 8, 5, v=3.0, b=15.0))
     assert {ball for ball, _, _ in played.facts.pocketed_in_order} == {0, 8}
@@ -210,7 +210,7 @@ def test_eight_and_scratch_on_the_break_is_the_opponents_choice() -> None:
     assert decide(played, Decision.RERACK_AND_BREAK).turn == 1
 
 
-def test_eight_with_another_foul_on_the_break_is_spotted() -> None:
+def test_eight_with_another_foul_on_the_break_is_spotted():
     """R14, R17: the 8 made from the kitchen without crossing the head string."""
     played = play(to_break(IN_KITCHEN_EIGHT), pot(IN_KITCHEN_EIGHT, 8, 3, v=1.5))
     assert objects_pocketed(played) == [8]
@@ -220,7 +220,7 @@ def test_eight_with_another_foul_on_the_break_is_spotted() -> None:
     assert (played.game.turn, played.game.decisions) == (1, (Decision.ACCEPT_TABLE, Decision.BALL_IN_HAND))
 
 
-def test_scratch_on_a_legal_break() -> None:
+def test_scratch_on_a_legal_break():
     """R15: ball in hand in the kitchen without a choice; the object ball stays down."""
     played = play(to_break(CORNERED), pot(CORNERED, 3, 5, v=3.0, b=15.0))
     assert {ball for ball, _, _ in played.facts.pocketed_in_order} == {0, 3}
@@ -229,7 +229,7 @@ def test_scratch_on_a_legal_break() -> None:
     assert played.game.state.balls == (8, 11)
 
 
-def test_other_foul_on_a_legal_break() -> None:
+def test_other_foul_on_a_legal_break():
     """R17: accept the position or take ball in hand."""
     played = play(to_break(IN_KITCHEN), pot(IN_KITCHEN, 3, 3, v=1.5))
     assert objects_pocketed(played) == [3]
@@ -241,7 +241,7 @@ def test_other_foul_on_a_legal_break() -> None:
     assert decide(played, Decision.BALL_IN_HAND).cue_ball_in_hand is KITCHEN
 
 
-def test_break_is_not_called() -> None:
+def test_break_is_not_called():
     """R8."""
     game = RULES.new_game(1)
     balls = {ball: tuple(game.state.positions[ball].tolist()) for ball in game.state.balls}
@@ -250,7 +250,7 @@ def test_break_is_not_called() -> None:
     assert not RULES.legal(game).call_required
 
 
-def test_only_the_eight_is_spotted_and_only_from_the_break() -> None:
+def test_only_the_eight_is_spotted_and_only_from_the_break():
     """R30."""
     from_break = play(to_break(CORNERED), pot(CORNERED, 3, 5, v=3.0))
     later = play(situation(CORNERED_EIGHT), pot(CORNERED_EIGHT, 8, 5, v=3.0), "safety")

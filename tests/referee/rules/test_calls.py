@@ -14,7 +14,7 @@ IN_LINE = {0: (0.45, 1.118), 3: (0.7, 1.118), 11: (1.0, 1.118), 8: (0.3, 0.5), 5
 """The 3 drives the 11 into E and rolls in after it."""
 
 
-def test_called_ball_on_an_open_table_fixes_the_groups() -> None:
+def test_called_ball_on_an_open_table_fixes_the_groups():
     """R19, R28."""
     played = play(situation(STRAIGHT), pot(STRAIGHT, 3, E, v=1.5), (3, E))
     assert played.ruling.made
@@ -25,13 +25,13 @@ def test_called_ball_on_an_open_table_fixes_the_groups() -> None:
     assert (event.kind, event.ball, event.other) == (EventKind.POCKET_COLLISION, 3, E)
 
 
-def test_called_stripe_gives_the_second_player_stripes() -> None:
+def test_called_stripe_gives_the_second_player_stripes():
     """R19 from seat 1."""
     played = play(situation(STRAIGHT_STRIPE, turn=1), pot(STRAIGHT_STRIPE, 11, E, v=1.5), (11, E))
     assert played.game.groups == (Group.SOLIDS, Group.STRIPES)
 
 
-def test_any_ball_but_the_eight_may_be_struck_first_on_an_open_table() -> None:
+def test_any_ball_but_the_eight_may_be_struck_first_on_an_open_table():
     """R20: a stripe first while a solid is called is no foul."""
     played = play(situation(IN_LINE), pot(IN_LINE, 3, E, v=1.4, b=-8.0), (11, E))
     assert played.facts.struck_first == (3,)
@@ -39,7 +39,7 @@ def test_any_ball_but_the_eight_may_be_struck_first_on_an_open_table() -> None:
     assert played.game.groups == STRIPES
 
 
-def test_other_balls_do_not_decide_groups() -> None:
+def test_other_balls_do_not_decide_groups():
     """R21: the 3 fell as well, but the 11 was called."""
     played = play(situation(IN_LINE), pot(IN_LINE, 3, E, v=1.4, b=-8.0), (11, E))
     assert [ball for ball, _, _ in played.facts.pocketed_in_order] == [11, 3]
@@ -47,7 +47,7 @@ def test_other_balls_do_not_decide_groups() -> None:
     assert [one.ball for one in played.proof("R21")] == [3]
 
 
-def test_uncalled_balls_leave_the_table_open() -> None:
+def test_uncalled_balls_leave_the_table_open():
     """R19, R21: both balls fell, neither as called."""
     played = play(situation(IN_LINE), pot(IN_LINE, 3, E, v=1.4, b=-8.0), (5, E))
     assert len(played.facts.pocketed_in_order) == 2
@@ -55,7 +55,7 @@ def test_uncalled_balls_leave_the_table_open() -> None:
     assert played.game.turn == 1
 
 
-def test_foul_leaves_the_table_open() -> None:
+def test_foul_leaves_the_table_open():
     """R22: made as called, with a scratch."""
     played = play(situation(STRAIGHT), pot(STRAIGHT, 3, E, v=2.0, b=15.0), (3, E))
     assert played.ruling.fouls == ("R32",)
@@ -75,7 +75,7 @@ def test_foul_leaves_the_table_open() -> None:
         (None, (3, 5, 11, 12), ()),
     ],
 )
-def test_callable_balls(groups: object, gone: tuple[int, ...], expected: tuple[int, ...]) -> None:
+def test_callable_balls(groups, gone, expected):
     """R23, R27: exactly these are accepted, and a safety always is."""
     balls = {ball: place for ball, place in STRAIGHT.items() if ball not in gone}
     game = situation(balls, groups=groups)
@@ -88,7 +88,7 @@ def test_callable_balls(groups: object, gone: tuple[int, ...], expected: tuple[i
     assert RULES.check(game, Action(shot=shot, call="safety")) == ()
 
 
-def test_call_is_required_and_names_a_pocket() -> None:
+def test_call_is_required_and_names_a_pocket():
     """R23."""
     shot = stroke(STRAIGHT, 90.0, 1.0)
     game = situation(STRAIGHT)
@@ -100,7 +100,7 @@ def test_call_is_required_and_names_a_pocket() -> None:
     assert [one.field for one in both] == ["call.ball", "call.pocket"]
 
 
-def test_combination_counts() -> None:
+def test_combination_counts():
     """R24: the 11 by way of the 3."""
     played = play(situation(IN_LINE, groups=STRIPES), pot(IN_LINE, 11, E, v=1.4, b=-8.0), "safety")
     assert played.facts.struck_first == (3,)
@@ -108,7 +108,7 @@ def test_combination_counts() -> None:
     assert open_table.ruling.made
 
 
-def test_bank_counts() -> None:
+def test_bank_counts():
     """R24: off the foot cushion first and then in, as called."""
     balls = {0: (0.30, 0.95), 3: (0.40, 0.55), 8: (0.2, 2.0), 5: (0.15, 1.7)}
     for target in range(200):
@@ -122,7 +122,7 @@ def test_bank_counts() -> None:
     pytest.fail("no bank was found to test with")
 
 
-def test_called_ball_in_another_pocket() -> None:
+def test_called_ball_in_another_pocket():
     """R25: not made, stays down, the turn passes, no foul."""
     played = play(situation(STRAIGHT, groups=SOLIDS), pot(STRAIGHT, 3, E, v=1.5), (3, W))
     assert played.ruling.fouls == ()
@@ -133,7 +133,7 @@ def test_called_ball_in_another_pocket() -> None:
     assert played.ruling.evidence[0].pocket == E
 
 
-def test_safety_passes_the_turn_whatever_falls() -> None:
+def test_safety_passes_the_turn_whatever_falls():
     """R26."""
     played = play(situation(STRAIGHT, groups=SOLIDS), pot(STRAIGHT, 3, E, v=1.5), "safety")
     assert played.facts.pocketed[3] >= 0
@@ -143,20 +143,20 @@ def test_safety_passes_the_turn_whatever_falls() -> None:
     assert 3 not in played.game.state.balls
 
 
-def test_foul_on_a_safety_counts() -> None:
+def test_foul_on_a_safety_counts():
     """R26, R32."""
     played = play(situation(STRAIGHT, groups=SOLIDS), pot(STRAIGHT, 3, E, v=2.0, b=15.0), "safety")
     assert played.ruling.fouls == ("R32",)
     assert played.game.cue_ball_in_hand == "anywhere"
 
 
-def test_safety_on_an_open_table_leaves_it_open() -> None:
+def test_safety_on_an_open_table_leaves_it_open():
     """R19, R26."""
     played = play(situation(STRAIGHT), pot(STRAIGHT, 3, E, v=1.5), "safety")
     assert played.game.groups is None
 
 
-def test_missed_ball_passes_the_turn() -> None:
+def test_missed_ball_passes_the_turn():
     """R28, with the range of events searched for the ball's fall."""
     shot = stroke(STRAIGHT, 6.0, 1.5)
     played = play(situation(STRAIGHT, groups=SOLIDS), shot, (3, E))
@@ -166,7 +166,7 @@ def test_missed_ball_passes_the_turn() -> None:
     assert evidence.searched == (0, len(played.result.events) - 1)
 
 
-def test_opponents_ball_stays_down() -> None:
+def test_opponents_ball_stays_down():
     """R29: called ball made, the opponent's falls too; the shooter goes on."""
     balls = {0: (0.45, 1.118), 3: (0.7, 1.118), 5: (0.8, 0.4), 11: (1.0, 1.118), 8: (0.3, 0.5)}
     played = play(situation(balls, groups=SOLIDS), pot(balls, 3, E, v=1.4, b=-8.0), (3, E))
@@ -176,7 +176,7 @@ def test_opponents_ball_stays_down() -> None:
     assert played.game.state == played.result.final
 
 
-def test_hanging_ball_belongs_to_the_stroke_that_dropped_it() -> None:
+def test_hanging_ball_belongs_to_the_stroke_that_dropped_it():
     """R51: pocketed long after the cue ball came to rest, it is still made."""
     played = play(situation(STRAIGHT, groups=SOLIDS), pot(STRAIGHT, 3, E, v=0.7, b=-10.0), (3, E))
     rest = [one for one in played.result.events if one.ball == 0][-1]
@@ -185,7 +185,7 @@ def test_hanging_ball_belongs_to_the_stroke_that_dropped_it() -> None:
     assert played.game.turn == 0
 
 
-def test_legal_says_so() -> None:
+def test_legal_says_so():
     """The description of what is allowed agrees with the rulings."""
     game = situation(STRAIGHT, groups=SOLIDS)
     allowed = RULES.legal(game)

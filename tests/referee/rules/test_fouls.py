@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import cos, radians, sin
+from typing import Literal
 
 import pytest
 from support.situations import (
@@ -22,7 +23,7 @@ from support.situations import (
 import physics
 from physics.shot import Shot
 from referee.errors import InvalidAction
-from referee.game import Action, CueBallArea, Decision, Game, Phase
+from referee.game import Action, Call, CueBallArea, Decision, Game, Phase
 
 E = 4
 STRAIGHT = {0: (0.6, 1.118), 3: (0.9, 1.118), 5: (0.8, 0.4), 8: (0.3, 0.5), 11: (0.5, 0.4), 12: (0.3, 1.9)}
@@ -36,9 +37,9 @@ def from_kitchen(balls: Balls, phi: float, v: float, place: tuple[float, float],
     return play(game, stroke({**balls, 0: place}, phi, v, b=b), "safety", cue_ball=place)
 
 
-def miscue(game: Game, played_as: Shot, intended: Shot, call: str | None = "safety") -> Played:
+def miscue(game: Game, played_as: Shot, intended: Shot, call: Call | Literal["safety"] | None = "safety") -> Played:
     """``intended`` may be played; noise made it ``played_as``."""
-    action = Action(shot=intended, call=call)  # type: ignore[arg-type]
+    action = Action(shot=intended, call=call)
     assert RULES.check(game, action) == ()
     result = physics.simulate(TABLE, game.state, played_as)
     return Played(game, action, result, RULES.apply(game, action, result.facts, result.final))
@@ -49,7 +50,7 @@ def assert_ball_in_hand(played: Played) -> None:
     assert played.game.cue_ball_in_hand is CueBallArea.ANYWHERE
 
 
-def test_scratch() -> None:
+def test_scratch():
     """R32."""
     played = play(situation(STRAIGHT, groups=SOLIDS), pot(STRAIGHT, 3, E, v=2.0, b=15.0), (3, E))
     assert played.ruling.fouls == ("R32",)
@@ -59,7 +60,7 @@ def test_scratch() -> None:
     assert 3 not in played.game.state.balls
 
 
-def test_opponents_ball_first() -> None:
+def test_opponents_ball_first():
     """R33."""
     played = play(situation(STRAIGHT_STRIPE, groups=SOLIDS), stroke(STRAIGHT_STRIPE, 0.0, 1.5), (3, E))
     assert played.ruling.fouls == ("R33",)
@@ -68,21 +69,21 @@ def test_opponents_ball_first() -> None:
     assert_ball_in_hand(played)
 
 
-def test_own_ball_first_with_the_group_cleared() -> None:
+def test_own_ball_first_with_the_group_cleared():
     """R33: on the 8, the 8 has to be struck first."""
     balls = {ball: place for ball, place in STRAIGHT_STRIPE.items() if ball != 3}
     played = play(situation(balls, groups=SOLIDS), stroke(balls, 0.0, 1.5), (8, E))
     assert played.ruling.fouls == ("R33",)
 
 
-def test_eight_first_before_the_group_is_cleared() -> None:
+def test_eight_first_before_the_group_is_cleared():
     """R33."""
     shot = stroke(STRAIGHT_EIGHT, towards((0.6, 1.118), (0.8, 1.0)), 2.0)
     played = play(situation(STRAIGHT_EIGHT, groups=SOLIDS), shot, (3, E))
     assert played.ruling.fouls == ("R33",)
 
 
-def test_eight_first_on_an_open_table() -> None:
+def test_eight_first_on_an_open_table():
     """R20, known error: the historical referee let it pass."""
     shot = stroke(STRAIGHT_EIGHT, towards((0.6, 1.118), (0.8, 1.0)), 2.0)
     played = play(situation(STRAIGHT_EIGHT), shot, (3, E))
@@ -92,7 +93,7 @@ def test_eight_first_on_an_open_table() -> None:
 
 
 @pytest.mark.parametrize("groups", [SOLIDS, STRIPES])
-def test_simultaneous_first_contacts_go_to_the_shooter(groups: object) -> None:
+def test_simultaneous_first_contacts_go_to_the_shooter(groups):
     """R33: the 3 and the 11 struck at the same instant suit whoever shoots."""
     x = 0.5 * TABLE.width
     balls = {
@@ -108,7 +109,7 @@ def test_simultaneous_first_contacts_go_to_the_shooter(groups: object) -> None:
     assert "R33" not in played.ruling.fouls
 
 
-def test_touching_ball_counts_only_if_driven_into() -> None:
+def test_touching_ball_counts_only_if_driven_into():
     """R33: away from a frozen opponent's ball is no contact with it, into it is."""
     balls = {0: (0.5, 1.0), 11: (0.5 + 2 * R, 1.0), 8: (0.2, 0.3), 12: (0.2, 0.5)}
     at = (0.5 + 0.5 * cos(radians(120)), 1.0 + 0.5 * sin(radians(120)))
@@ -122,7 +123,7 @@ def test_touching_ball_counts_only_if_driven_into() -> None:
     assert "R33" in into.ruling.fouls
 
 
-def test_no_ball_struck() -> None:
+def test_no_ball_struck():
     """R34, with the whole stroke searched."""
     played = play(situation(STRAIGHT, groups=SOLIDS), stroke(STRAIGHT, 90.0, 0.4), (3, E))
     assert played.ruling.fouls == ("R34",)
@@ -130,7 +131,7 @@ def test_no_ball_struck() -> None:
     assert_ball_in_hand(played)
 
 
-def test_no_cushion_after_contact() -> None:
+def test_no_cushion_after_contact():
     """R35, searched from the contact on."""
     played = play(situation(STRAIGHT, groups=SOLIDS), stroke(STRAIGHT, 8.0, 0.4, b=-5.0), (3, E))
     assert played.ruling.fouls == ("R35",)
@@ -139,7 +140,7 @@ def test_no_cushion_after_contact() -> None:
     assert_ball_in_hand(played)
 
 
-def test_cushion_before_contact_does_not_help() -> None:
+def test_cushion_before_contact_does_not_help():
     """R35: the cue ball came off a cushion, then nothing reached one."""
     balls = {0: (0.45, 0.3), 3: (0.6, 0.22), 8: (0.2, 1.9), 11: (0.9, 1.9)}
     for step in range(60):
@@ -153,7 +154,7 @@ def test_cushion_before_contact_does_not_help() -> None:
     assert played.ruling.fouls == ("R35",)
 
 
-def test_uncalled_pocketed_ball_satisfies_the_cushion_rule() -> None:
+def test_uncalled_pocketed_ball_satisfies_the_cushion_rule():
     """R35, known error: a ball pocketed, called or not, is enough; no cushion was touched."""
     played = play(situation(STRAIGHT, groups=SOLIDS), pot(STRAIGHT, 3, E, v=0.9, b=-6.0), (5, E))
     assert not any(event >= 0 for event in played.facts.cushion_after_contact)
@@ -161,7 +162,7 @@ def test_uncalled_pocketed_ball_satisfies_the_cushion_rule() -> None:
     assert played.ruling.fouls == ()
 
 
-def test_ball_frozen_to_a_cushion_has_to_leave_and_come_back() -> None:
+def test_ball_frozen_to_a_cushion_has_to_leave_and_come_back():
     """R35 with R9's meaning of driven: pressing a frozen ball into its cushion is not enough."""
     balls = {0: (0.35, R + 0.2), 3: (0.35, R), 8: (0.2, 1.9), 11: (0.9, 1.9)}
     played = play(situation(balls, groups=SOLIDS), stroke(balls, 270.0, 0.25), "safety")
@@ -171,7 +172,7 @@ def test_ball_frozen_to_a_cushion_has_to_leave_and_come_back() -> None:
     assert played.ruling.fouls == ("R35",)
 
 
-def test_from_the_kitchen_first_ball_behind_the_string() -> None:
+def test_from_the_kitchen_first_ball_behind_the_string():
     """R38: struck before the cue ball crossed. Known error: the historical test was inverted."""
     balls = {3: (0.558, 2.0), 11: (0.3, 0.5), 8: (0.8, 0.5)}
     played = from_kitchen(balls, 90.0, 2.0, (0.558, 1.75))
@@ -180,7 +181,7 @@ def test_from_the_kitchen_first_ball_behind_the_string() -> None:
     assert_ball_in_hand(played)
 
 
-def test_from_the_kitchen_across_the_string_is_fair() -> None:
+def test_from_the_kitchen_across_the_string_is_fair():
     """R38, the other side of the inverted test: an ordinary stroke out of the kitchen."""
     balls = {3: (0.558, 0.9), 11: (0.3, 0.5), 8: (0.8, 0.5)}
     played = from_kitchen(balls, 270.0, 3.0, (0.558, 1.75))
@@ -189,7 +190,7 @@ def test_from_the_kitchen_across_the_string_is_fair() -> None:
     assert played.game.cue_ball_in_hand is None
 
 
-def test_from_the_kitchen_a_ball_on_the_string_may_be_struck() -> None:
+def test_from_the_kitchen_a_ball_on_the_string_may_be_struck():
     """R38, R6: on the string is not behind it, and the cue ball need not cross."""
     on_string = {3: (0.558, TABLE.head_string), 11: (0.3, 0.5), 8: (0.8, 0.5)}
     played = from_kitchen(on_string, 270.0, 3.0, (0.558, 1.9))
@@ -200,7 +201,7 @@ def test_from_the_kitchen_a_ball_on_the_string_may_be_struck() -> None:
     assert from_kitchen(behind, 270.0, 3.0, (0.558, 1.9)).ruling.fouls == ("R38",)
 
 
-def test_from_the_kitchen_back_into_it_is_fair() -> None:
+def test_from_the_kitchen_back_into_it_is_fair():
     """R38: a ball behind the string may be struck after the cue ball crossed."""
     balls = {3: (0.33, 2.1), 11: (0.8, 0.5), 8: (0.9, 0.5)}
     played = from_kitchen(balls, 270.0, 4.5, (0.3, 1.8), b=0.0)
@@ -209,14 +210,14 @@ def test_from_the_kitchen_back_into_it_is_fair() -> None:
     assert played.ruling.fouls == ()
 
 
-def test_from_the_kitchen_neither_crossing_nor_reaching() -> None:
+def test_from_the_kitchen_neither_crossing_nor_reaching():
     """R38 with R34, all reported (R41)."""
     balls = {3: (0.558, 0.9), 11: (0.3, 0.5), 8: (0.8, 0.5)}
     played = from_kitchen(balls, 270.0, 0.1, (0.558, 1.9))
     assert played.ruling.fouls == ("R38", "R34")
 
 
-def test_kitchen_restriction_ends_with_the_stroke() -> None:
+def test_kitchen_restriction_ends_with_the_stroke():
     """R38: the next player plays as usual."""
     balls = {3: (0.558, 0.9), 11: (0.3, 0.5), 8: (0.8, 0.5)}
     played = from_kitchen(balls, 270.0, 3.0, (0.558, 1.75))
@@ -231,7 +232,7 @@ def test_kitchen_restriction_ends_with_the_stroke() -> None:
         (Shot(2.0, 0.0, 0.0), "CUE_OBSTRUCTED"),
     ],
 )
-def test_miscue(played_as: Shot, status: str) -> None:
+def test_miscue(played_as, status):
     """R39: what noise makes impossible is a foul, the balls stay; there is no second draw."""
     game = situation(STRAIGHT, groups=SOLIDS)
     played = miscue(game, played_as, stroke(STRAIGHT, 0.0, 2.0))
@@ -242,7 +243,7 @@ def test_miscue(played_as: Shot, status: str) -> None:
     assert played.game.stroke == game.stroke + 1
 
 
-def test_miscue_on_the_break() -> None:
+def test_miscue_on_the_break():
     """R39, R12a, R17: an illegal break with a foul."""
     game = RULES.new_game(5)
     balls = {ball: tuple(game.state.positions[ball].tolist()) for ball in game.state.balls}
@@ -253,7 +254,7 @@ def test_miscue_on_the_break() -> None:
     assert played.game.turn == 1
 
 
-def test_only_strokes_that_were_played_are_ruled() -> None:
+def test_only_strokes_that_were_played_are_ruled():
     """R39: out of range or no cue ball cannot come from noise; the driver has to refuse."""
     game = situation(STRAIGHT, groups=SOLIDS)
     action = Action(shot=stroke(STRAIGHT, 0.0, 2.0), call="safety")
@@ -263,7 +264,7 @@ def test_only_strokes_that_were_played_are_ruled() -> None:
         RULES.apply(game, action, facts, result.final)
 
 
-def test_all_fouls_are_reported_and_one_penalised() -> None:
+def test_all_fouls_are_reported_and_one_penalised():
     """R41: the wrong ball first and a scratch; the worst leads."""
     shot = stroke(STRAIGHT_STRIPE, 0.0, 2.0, b=15.0)
     played = play(situation(STRAIGHT_STRIPE, groups=SOLIDS), shot, (3, E))
@@ -273,7 +274,7 @@ def test_all_fouls_are_reported_and_one_penalised() -> None:
     assert_ball_in_hand(played)
 
 
-def test_fouls_do_not_move_the_other_balls() -> None:
+def test_fouls_do_not_move_the_other_balls():
     """R29, R41: object balls lie where the stroke left them."""
     played = play(situation(STRAIGHT, groups=SOLIDS), stroke(STRAIGHT, 90.0, 0.4), (3, E))
     assert played.game.state == played.result.final

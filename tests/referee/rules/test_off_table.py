@@ -30,7 +30,7 @@ def to_break() -> Game:
     return situation(BALLS, Phase.BREAK, cue_ball_in_hand=CueBallArea.KITCHEN)
 
 
-def test_object_ball_off_the_table_on_a_legal_break() -> None:
+def test_object_ball_off_the_table_on_a_legal_break():
     """R16: a foul; the ball stays out; accept or ball in hand."""
     given = ruling(to_break(), (5, 3), first_contact=at(5, event=2), off_table=at(5), pocketed=at(3, event=7))
     assert given.rules[0] == "R16"
@@ -39,7 +39,7 @@ def test_object_ball_off_the_table_on_a_legal_break() -> None:
     assert 5 not in given.game.state.balls
 
 
-def test_eight_off_the_table_on_the_break_is_spotted() -> None:
+def test_eight_off_the_table_on_the_break_is_spotted():
     """R16, R30, R31."""
     given = ruling(to_break(), (8, 3), first_contact=at(5, event=2), off_table=at(8), pocketed=at(3, event=7))
     assert {"R16", "R30", "R31"} <= set(given.rules)
@@ -47,7 +47,7 @@ def test_eight_off_the_table_on_the_break_is_spotted() -> None:
     assert given.game.phase is Phase.DECISION
 
 
-def test_object_ball_off_the_table() -> None:
+def test_object_ball_off_the_table():
     """R36: a foul, the ball stays out, ball in hand anywhere."""
     given = ruling(
         situation(BALLS, groups=SOLIDS),
@@ -62,7 +62,7 @@ def test_object_ball_off_the_table() -> None:
     assert 11 not in given.game.state.balls
 
 
-def test_eight_off_the_table_loses() -> None:
+def test_eight_off_the_table_loses():
     """R45."""
     given = ruling(
         situation(BALLS, groups=SOLIDS),
@@ -76,7 +76,7 @@ def test_eight_off_the_table_loses() -> None:
     assert (outcome.winner, outcome.reason, outcome.rule) == (1, EndReason.EIGHT_OFF_TABLE, "R45")
 
 
-def test_cue_ball_off_the_table() -> None:
+def test_cue_ball_off_the_table():
     """R32: as good as pocketed."""
     given = ruling(
         situation(BALLS, groups=SOLIDS),

@@ -1,6 +1,7 @@
 """R6, R7, R37, R40 and the refusals of R39: what is said before a stroke, with nothing changed by it."""
 
 from math import cos, inf, nan, nextafter, radians, sin
+from typing import Any
 
 import pytest
 from support.situations import RULES, SOLIDS, TABLE, R, situation, stroke
@@ -14,7 +15,7 @@ HEAD = TABLE.head_string
 STEEP = Shot(2.0, 0.0, 60.0)
 
 
-def in_hand(area: CueBallArea, **fields: object) -> Game:
+def in_hand(area: CueBallArea, **fields: Any) -> Game:
     return situation(BALLS, cue_ball_in_hand=area, groups=SOLIDS, **fields)
 
 
@@ -24,7 +25,7 @@ def refused(game: Game, place: tuple[float, float] | None, shot: Shot = STEEP) -
     return [(one.rule, one.field) for one in refusals]
 
 
-def test_anywhere_means_anywhere_clear() -> None:
+def test_anywhere_means_anywhere_clear():
     """R40."""
     game = in_hand(CueBallArea.ANYWHERE)
     for place in ((0.3, 0.9), (0.3, 2.0), (R, 0.9)):  # the last frozen to a cushion
@@ -44,20 +45,20 @@ def test_anywhere_means_anywhere_clear() -> None:
         (0.04, 0.04),
     ],
 )
-def test_outside_or_on_a_mouth_line(place: tuple[float, float]) -> None:
+def test_outside_or_on_a_mouth_line(place):
     """R40."""
     assert refused(in_hand(CueBallArea.ANYWHERE), place) == [("R40", "cue_ball")]
 
 
 @pytest.mark.parametrize("place", [(nan, 0.9), (0.5, inf), (-inf, nan)])
-def test_not_finite(place: tuple[float, float]) -> None:
+def test_not_finite(place):
     """R37, known error: the historical referee played from NaN."""
     assert refused(in_hand(CueBallArea.ANYWHERE), place) == [("R37", "cue_ball")]
 
 
 @pytest.mark.parametrize("degrees", [0, 30, 45, 90, 137, 250])
 @pytest.mark.parametrize(("gap", "expected"), [(-1e-3, True), (-1e-12, True), (0.0, True), (1e-7, False)])
-def test_touching_counts_as_overlap(degrees: int, gap: float, expected: bool) -> None:
+def test_touching_counts_as_overlap(degrees, gap, expected):
     """R40, in every direction round the 11."""
     reach = 2 * R + gap
     place = (0.5 + reach * cos(radians(degrees)), 0.4 + reach * sin(radians(degrees)))
@@ -65,7 +66,7 @@ def test_touching_counts_as_overlap(degrees: int, gap: float, expected: bool) ->
     assert (("R40", "cue_ball") in found) is expected
 
 
-def test_kitchen_is_strict() -> None:
+def test_kitchen_is_strict():
     """R6, R37: on the string is not behind it."""
     game = in_hand(CueBallArea.KITCHEN)
     assert refused(game, (0.5, HEAD)) == [("R37", "cue_ball")]
@@ -74,7 +75,7 @@ def test_kitchen_is_strict() -> None:
     assert refused(in_hand(CueBallArea.ANYWHERE), (0.5, HEAD)) == []
 
 
-def test_break_from_the_kitchen() -> None:
+def test_break_from_the_kitchen():
     """R7."""
     game = RULES.new_game(3)
     for place, expected in (((0.4, 1.8), []), ((0.4, HEAD), [("R37", "cue_ball")])):
@@ -82,7 +83,7 @@ def test_break_from_the_kitchen() -> None:
         assert [(one.rule, one.field) for one in refusals] == expected
 
 
-def test_every_fault_is_named() -> None:
+def test_every_fault_is_named():
     """R37: outside the kitchen and on two balls at once."""
     game = situation({3: (0.5, 0.5), 8: (0.5 + 2.2 * R, 0.5)}, cue_ball_in_hand=CueBallArea.KITCHEN)
     assert refused(game, (0.5 + 1.1 * R, 0.5)) == [
@@ -94,12 +95,12 @@ def test_every_fault_is_named() -> None:
     assert [one.field for one in RULES.check(game, bad)] == ["call.ball", "call.pocket", "cue_ball"]
 
 
-def test_cue_ball_that_is_not_in_hand_stays() -> None:
+def test_cue_ball_that_is_not_in_hand_stays():
     """R37."""
     assert refused(situation(BALLS, groups=SOLIDS), (0.3, 0.9)) == [("R37", "cue_ball")]
 
 
-def test_cue_ball_off_the_table_has_to_be_placed() -> None:
+def test_cue_ball_off_the_table_has_to_be_placed():
     """R37."""
     balls = {ball: place for ball, place in BALLS.items() if ball != 0}
     game = situation(balls, cue_ball_in_hand=CueBallArea.ANYWHERE)
@@ -108,31 +109,31 @@ def test_cue_ball_off_the_table_has_to_be_placed() -> None:
     assert refused(game, (0.6, 1.118)) == []
 
 
-def test_cue_ball_in_hand_may_stay_where_it_lies() -> None:
+def test_cue_ball_in_hand_may_stay_where_it_lies():
     """R37: where it may be, that is; in front of the string it may not when bound to the kitchen."""
     assert refused(in_hand(CueBallArea.ANYWHERE), None) == []
     assert refused(in_hand(CueBallArea.KITCHEN), None) == [("R37", "cue_ball")]
 
 
 @pytest.mark.parametrize("shot", [Shot(2.0, 0.0, 0.0), Shot(2.0, 0.0, 10.0, a=28.0, b=28.0)])
-def test_intended_stroke_that_cannot_be_played_is_refused(shot: Shot) -> None:
+def test_intended_stroke_that_cannot_be_played_is_refused(shot):
     """R39: cue through the cushion, tip off the ball; no stroke, so no noise."""
     game = situation(BALLS, groups=SOLIDS)
     assert refused(game, None, shot) == [("R39", "shot")]
     assert refused(in_hand(CueBallArea.ANYWHERE), (0.3, 0.9), shot) == [("R39", "shot")]
 
 
-def test_lowest_elevation_is_accepted() -> None:
+def test_lowest_elevation_is_accepted():
     """R39, the other side."""
     assert refused(situation(BALLS, groups=SOLIDS), None, stroke(BALLS, 0.0, 2.0)) == []
 
 
-def test_not_an_action() -> None:
+def test_not_an_action():
     with pytest.raises(InvalidAction, match="action = None"):
-        RULES.check(situation(BALLS), None)  # type: ignore[arg-type]
+        RULES.check(situation(BALLS), None)
 
 
-def test_wrong_kind_of_action() -> None:
+def test_wrong_kind_of_action():
     """A decision where a stroke is due, a stroke where a decision is, anything before a re-rack."""
     game = situation(BALLS, groups=SOLIDS)
     decision = Action(decision=Decision.ACCEPT_TABLE)

@@ -70,7 +70,7 @@ def test_a_rack_can_be_the_beginning():
         (situation(BALLS, Phase.DECISION, choice="R12", groups=GROUPS), "groups"),
         (situation(BALLS, Phase.DECISION, choice="R12", cue_ball_in_hand=CueBallArea.KITCHEN), "cue_ball_in_hand"),
         (situation(BALLS, groups=("solids", "solids")), "game"),
-        (situation(BALLS, phase="play"), "game"),
+        (situation(BALLS, phase="play"), "game"),  # type: ignore[arg-type]
     ],
 )
 def test_what_cannot_be_played_on_from_is_named(game, field):
@@ -106,24 +106,23 @@ def test_a_given_position_that_is_none_is_no_record():
     assert verify_record([canonical(racked), *rest]).difference.field.startswith("commitment")
 
 
+A_BREAK = Action(shot=Shot(9.0, 270.0, 10.0))
+
+
 @pytest.mark.parametrize(
     ("make", "error", "field"),
     [
         (lambda: EightBall(None), InvalidGame, "table"),
-        (lambda: EightBall(RULES.table, 3), InvalidGame, "limits"),
+        (lambda: EightBall(RULES.table, 3), InvalidGame, "limits"),  # type: ignore[arg-type]
         (lambda: RULES.new_game(7, breaker=True), InvalidGame, "breaker"),
-        (lambda: RULES.check(None, Action(decision="concede")), InvalidGame, "game"),
+        (lambda: RULES.check(None, Action(decision=Decision.CONCEDE)), InvalidGame, "game"),
         (lambda: RULES.apply(RULES.new_game(7), None, None, None), InvalidAction, "action"),
-        (lambda: RULES.apply(None, Action(decision="concede")), InvalidGame, "game"),
-        (lambda: RULES.apply(*a_break(), None, None), InvalidAction, "facts"),
-        (lambda: RULES.apply(*a_break(), Facts.none(), {}), InvalidAction, "final"),
+        (lambda: RULES.apply(None, Action(decision=Decision.CONCEDE)), InvalidGame, "game"),
+        (lambda: RULES.apply(RULES.new_game(7), A_BREAK, None, None), InvalidAction, "facts"),
+        (lambda: RULES.apply(RULES.new_game(7), A_BREAK, Facts.none(), {}), InvalidAction, "final"),  # type: ignore[arg-type]
     ],
 )
 def test_misuse_names_the_field(make, error, field):
     with pytest.raises(error) as caught:
         make()
     assert caught.value.field == field
-
-
-def a_break():
-    return RULES.new_game(7), Action(shot=Shot(9.0, 270.0, 10.0))

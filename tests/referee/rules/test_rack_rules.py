@@ -28,7 +28,7 @@ def swapped(state: TableState, one: int, other: int) -> TableState:
 
 
 @given(seeds)
-def test_every_rack_keeps_the_rules(seed: int) -> None:
+def test_every_rack_keeps_the_rules(seed):
     """R1, R2, R3, R5."""
     state = RULES.new_game(seed).state
     assert rack_rules.apex_on_foot_spot(TABLE, state)
@@ -37,7 +37,7 @@ def test_every_rack_keeps_the_rules(seed: int) -> None:
     assert rack_rules.balls_separated(TABLE, state)
 
 
-def test_historical_rack_would_be_noticed() -> None:
+def test_historical_rack_would_be_noticed():
     """Known errors: the 8 in the wrong place, both back corners stripes (R2, R3)."""
     state = rack_rules.new_rack(TABLE, 7)
     order = placed(7)
@@ -50,7 +50,7 @@ def test_historical_rack_would_be_noticed() -> None:
     assert not rack_rules.back_corners_differ(TABLE, swapped(state, solid, stripe))
 
 
-def test_loose_rack_is_noticed() -> None:
+def test_loose_rack_is_noticed():
     """R1, R5: a ball two hundredths of a millimetre out of its place."""
     state = rack_rules.new_rack(TABLE, 7)
     ball = placed(7)[4][2]
@@ -61,13 +61,13 @@ def test_loose_rack_is_noticed() -> None:
     assert not rack_rules.balls_separated(TABLE, moved)
 
 
-def test_rack_comes_from_the_seed_alone() -> None:
+def test_rack_comes_from_the_seed_alone():
     """R4: the same for equal seeds; among 40 seeds every ball is seen at the apex but the 8."""
     assert RULES.new_game(7).state == RULES.new_game(7).state
     assert {placed(seed)[0][0] for seed in range(200)} == set(range(1, 16)) - {8}
 
 
-def test_break_is_played_from_the_kitchen() -> None:
+def test_break_is_played_from_the_kitchen():
     """R7, R6: ball in hand behind the head string, the cue ball racked there already."""
     game = RULES.new_game(7, breaker=1)
     assert (game.phase, game.turn, game.breaker) == (Phase.BREAK, 1, 1)
@@ -76,6 +76,6 @@ def test_break_is_played_from_the_kitchen() -> None:
 
 
 @pytest.mark.parametrize("first", [0, 1])
-def test_break_alternates(first: int) -> None:
+def test_break_alternates(first):
     """R50."""
     assert [breaker(first, game) for game in range(4)] == [first, 1 - first, first, 1 - first]

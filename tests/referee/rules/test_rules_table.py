@@ -41,7 +41,7 @@ def functions(path: Path) -> dict[str, ast.FunctionDef]:
     return {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
 
 
-def test_function(test: str, folder: Path) -> ast.FunctionDef:
+def test_function(test, folder):
     module, name = test.rsplit(".", 1)
     return functions(folder / f"{module}.py")[name]
 
@@ -53,20 +53,20 @@ def names_rule(text: str, rule: str) -> bool:
     return re.search(rf"\b{rule}\b", text) is not None
 
 
-def test_every_rule_is_in_the_table_once_and_in_order() -> None:
+def test_every_rule_is_in_the_table_once_and_in_order():
     assert [row[0] for row in RULE_ROWS] == list(RULES)
     numbers = [f"R{number}" for number in range(1, 52)]
     assert sorted(RULES, key=lambda rule: (int(rule[1:].rstrip("a")), rule)) == list(RULES)
     assert set(RULES) == {*numbers, "R12a"}
 
 
-def test_every_rule_has_a_predicate_of_its_own() -> None:
+def test_every_rule_has_a_predicate_of_its_own():
     predicates = [row[2] for row in RULE_ROWS]
     assert len(set(predicates)) == len(predicates)
 
 
 @pytest.mark.parametrize("row", RULE_ROWS, ids=lambda row: row[0])
-def test_predicate_and_test_exist_and_name_the_rule(row: list[str]) -> None:
+def test_predicate_and_test_exist_and_name_the_rule(row):
     rule, _, predicate, test, how = row
     assert names_rule(resolve(predicate).__doc__, rule)
     function = test_function(test, TESTS / "rules")
@@ -76,7 +76,7 @@ def test_predicate_and_test_exist_and_name_the_rule(row: list[str]) -> None:
 
 
 @pytest.mark.parametrize("row", [row for row in RULE_ROWS if row[4] == "simulated"], ids=lambda row: row[0])
-def test_simulated_means_simulated(row: list[str]) -> None:
+def test_simulated_means_simulated(row):
     """The test reaches ``physics.simulate``, by itself or through a helper of its file."""
     helpers = {"play", "simulate", "racked_break", "breaks", "from_kitchen", "miscue", "visits"}
     names = {node.id for node in ast.walk(test_function(row[3], TESTS / "rules")) if isinstance(node, ast.Name)}
@@ -84,13 +84,13 @@ def test_simulated_means_simulated(row: list[str]) -> None:
 
 
 @pytest.mark.parametrize("row", ERROR_ROWS, ids=lambda row: row[0])
-def test_every_historical_error_has_its_case(row: list[str]) -> None:
+def test_every_historical_error_has_its_case(row):
     _, cited, test = row
     assert all(rule in RULES for rule in cited.split(", "))
     assert test_function(test, TESTS).name.startswith("test_")
 
 
-def test_everything_not_simulated_is_explained() -> None:
+def test_everything_not_simulated_is_explained():
     """The rules tested by hand are named under Limits."""
     limits = (ROOT / "docs" / "rules.md").read_text(encoding="utf-8").split("## Limits")[1]
     by_hand = [row[0] for row in RULE_ROWS if row[4] == "by hand"]
@@ -98,6 +98,6 @@ def test_everything_not_simulated_is_explained() -> None:
     assert all(names_rule(limits, rule) for rule in by_hand)
 
 
-def test_the_page_says_a_rule_in_the_words_of_the_document() -> None:
+def test_the_page_says_a_rule_in_the_words_of_the_document():
     """The page explains rule ids by ``referee.RuleId``: one wording, wherever an id is explained."""
     assert {row[0]: row[1] for row in RULE_ROWS} == dict(RULES)

@@ -32,15 +32,15 @@ def keep(ball: int) -> float:
     return 2 * R + SPOT_GAP if ball == 0 else 2 * R
 
 
-def test_free_foot_spot_is_taken() -> None:
+def test_free_foot_spot_is_taken():
     assert spotted({0: (0.3, 1.8), 3: (X, FOOT + 2.1 * R)}) == (X, FOOT)
 
 
-def test_exactly_touching_the_foot_spot_is_no_overlap() -> None:
+def test_exactly_touching_the_foot_spot_is_no_overlap():
     assert spotted({3: (X + 2 * R, 1.0), 5: (X, FOOT + 2 * R)})[1] == FOOT
 
 
-def test_taken_foot_spot_means_touching_behind_it() -> None:
+def test_taken_foot_spot_means_touching_behind_it():
     x, y = spotted({3: (X, FOOT)})
     assert x == X
     assert y == pytest.approx(FOOT - 2 * R, abs=1e-15)
@@ -48,36 +48,36 @@ def test_taken_foot_spot_means_touching_behind_it() -> None:
     assert overlaps((x, nextafter(y, inf)), (X, FOOT), 2 * R)
 
 
-def test_ball_beside_the_string_pushes_the_place_only_as_far_as_need_be() -> None:
+def test_ball_beside_the_string_pushes_the_place_only_as_far_as_need_be():
     other = (X + 0.03, FOOT - 0.01)
     assert spotted({3: other})[1] == pytest.approx(other[1] - sqrt(4 * R * R - 0.03**2), abs=1e-15)
 
 
-def test_a_gap_too_narrow_for_a_ball_is_passed_over() -> None:
+def test_a_gap_too_narrow_for_a_ball_is_passed_over():
     second = FOOT - 2.6 * R
     assert spotted({3: (X, FOOT), 5: (X, second)})[1] == pytest.approx(second - 2 * R, abs=1e-15)
 
 
-def test_full_string_behind_goes_in_front_of_the_spot() -> None:
+def test_full_string_behind_goes_in_front_of_the_spot():
     wall = {ball: (X, FOOT - row * 2.001 * R) for row, ball in enumerate((1, 2, 3, 4, 5, 6, 7, 9, 10, 11))}
     wall = {ball: place for ball, place in wall.items() if place[1] >= R}
     assert min(y for _, y in wall.values()) < 3 * R
     assert spotted(wall)[1] == pytest.approx(FOOT + 2 * R, abs=1e-15)
 
 
-def test_cue_ball_on_the_spot_keeps_the_stated_gap() -> None:
+def test_cue_ball_on_the_spot_keeps_the_stated_gap():
     y = spotted({0: (X, FOOT)})[1]
     assert FOOT - y == pytest.approx(2 * R + SPOT_GAP, abs=1e-15)
     assert FOOT - y >= 2 * R + SPOT_GAP
 
 
-def test_place_may_be_frozen_to_the_foot_cushion() -> None:
+def test_place_may_be_frozen_to_the_foot_cushion():
     wall = {ball: (X, R + (row + 1) * 2 * R * 1.0001) for row, ball in enumerate((1, 2, 3, 4, 5, 6, 7, 9, 10))}
     assert spotted(wall)[1] == pytest.approx(wall[1][1] - 2 * R, abs=1e-15)
     assert spotted(wall)[1] >= R
 
 
-def test_a_failed_respot_cannot_happen() -> None:
+def test_a_failed_respot_cannot_happen():
     """Known error of the historical referee: with the long string crowded its re-spot threw.
 
     Fourteen object balls and the cue ball, spread so that each blocks as much of the string as it can.
@@ -104,7 +104,7 @@ def near_the_string(draw: st.DrawFn) -> dict[int, tuple[float, float]]:
 
 
 @given(near_the_string())
-def test_nearest_place_without_overlap(balls: dict[int, tuple[float, float]]) -> None:
+def test_nearest_place_without_overlap(balls):
     """Free itself; the next double towards the spot is not; and nothing in between is.
 
     Each ball blocks an interval, so the edges of single balls are the only candidates.

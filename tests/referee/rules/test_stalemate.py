@@ -26,7 +26,7 @@ def visits(game: Game, rules: EightBall = RULES) -> Iterator[Game]:
         yield game
 
 
-def test_the_24th_dry_visit_replays_the_rack() -> None:
+def test_the_24th_dry_visit_replays_the_rack():
     """R49, fouls included; the original breaker breaks again."""
     games = list(visits(situation(BALLS, turn=1, breaker=1, groups=SOLIDS)))
     assert len(games) == 24
@@ -43,7 +43,7 @@ def test_the_24th_dry_visit_replays_the_rack() -> None:
     assert (again.phase, again.turn, again.replays, again.stroke) == (Phase.BREAK, 1, 1, 24)
 
 
-def test_after_two_replays_the_next_stalemate_draws() -> None:
+def test_after_two_replays_the_next_stalemate_draws():
     """R49."""
     game = situation(BALLS, groups=SOLIDS)
     for replays in (1, 2):
@@ -56,7 +56,7 @@ def test_after_two_replays_the_next_stalemate_draws() -> None:
     assert (game.outcome.winner, game.outcome.reason, game.outcome.rule) == (None, EndReason.STALEMATE, "R49")
 
 
-def test_ruling_says_so() -> None:
+def test_ruling_says_so():
     """R49 leads the ruling and asks for a rack."""
     game = situation(BALLS, groups=SOLIDS, dry_visits=23)
     played = play(game, stroke(BALLS, 90.0, 0.001), "safety")
@@ -66,7 +66,7 @@ def test_ruling_says_so() -> None:
     assert "racked again" in played.ruling.words
 
 
-def test_a_pocketed_ball_starts_the_count_again() -> None:
+def test_a_pocketed_ball_starts_the_count_again():
     """R49: even pocketed on a foul, and also in a visit that ends with a miss."""
     game = situation(BALLS, groups=SOLIDS, dry_visits=20)
     scratched = play(game, pot(BALLS, 3, E, v=2.0, b=15.0), (3, E))
@@ -79,7 +79,7 @@ def test_a_pocketed_ball_starts_the_count_again() -> None:
     assert nudge(missed).dry_visits == 1
 
 
-def test_a_scratch_is_no_progress() -> None:
+def test_a_scratch_is_no_progress():
     """R49: the cue ball does not count as a ball pocketed."""
     balls = BALLS | {0: (0.9, 2.0)}
     played = play(situation(balls, groups=SOLIDS, dry_visits=3), stroke(balls, 45.0, 2.0), "safety")
@@ -87,7 +87,7 @@ def test_a_scratch_is_no_progress() -> None:
     assert played.game.dry_visits == 4
 
 
-def test_stroke_limit_draws() -> None:
+def test_stroke_limit_draws():
     """R49: its own end reason, re-racks included in the count."""
     played = play(situation(BALLS, groups=SOLIDS, stroke=399), stroke(BALLS, 90.0, 0.001), "safety")
     assert played.game.outcome is not None
@@ -96,7 +96,7 @@ def test_stroke_limit_draws() -> None:
     assert nudge(situation(BALLS, groups=SOLIDS, stroke=398)).outcome is None
 
 
-def test_a_win_on_the_last_stroke_is_a_win() -> None:
+def test_a_win_on_the_last_stroke_is_a_win():
     """R46 before R49."""
     balls = {0: (0.6, 1.118), 8: (0.9, 1.118), 11: (0.5, 0.4)}
     game = situation(balls, groups=SOLIDS, stroke=399, dry_visits=23)
@@ -105,7 +105,7 @@ def test_a_win_on_the_last_stroke_is_a_win() -> None:
     assert outcome.reason is EndReason.EIGHT_MADE
 
 
-def test_limits_are_configurable() -> None:
+def test_limits_are_configurable():
     """R49."""
     rules = EightBall(TABLE, Limits(dry_visits=2, replays=0, strokes=50))
     *_, last = visits(situation(BALLS, groups=SOLIDS), rules)
@@ -115,6 +115,6 @@ def test_limits_are_configurable() -> None:
 
 
 @pytest.mark.parametrize(("field", "value"), [("dry_visits", 0), ("replays", -1), ("strokes", 1.5), ("strokes", True)])
-def test_bad_limits(field: str, value: object) -> None:
+def test_bad_limits(field, value):
     with pytest.raises(InvalidGame, match=field):
-        Limits(**{field: value})  # type: ignore[arg-type]
+        Limits(**{field: value})

@@ -1,5 +1,7 @@
 """`referee.rules.batch_rulings` rules as `EightBall.apply` does (docs/rules.md), on tables and strokes of all kinds."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from support.situations import RULES, TABLE
@@ -14,7 +16,7 @@ STROKES = 400
 
 def crowded(chance, balls):
     """These balls and the cue ball at random, off the mouths and apart from one another."""
-    found = {}
+    found: dict[int, Any] = {}
     for ball in (0, *balls):
         while True:
             place = chance.uniform((0.08, 0.08), (TABLE.width - 0.08, TABLE.length - 0.08))

@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterator
 from math import isnan
 from random import Random
+from typing import Literal
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -39,7 +40,7 @@ def a_place(random: Random, game: Game, area: CueBallArea) -> Place:
             return (random.uniform(0.2, 0.9), random.uniform(low + 0.001, 2.0))
 
 
-def a_call(random: Random, allowed: Legal) -> Call | str | None:
+def a_call(random: Random, allowed: Legal) -> Call | Literal["safety"] | None:
     if not allowed.call_required:
         return None
     if not allowed.callable or random.random() < 0.05:
@@ -54,7 +55,7 @@ def a_direction(random: Random, game: Game, call: Call | str | None, place: Plac
         return random.uniform(0.0, 360.0)
     ball = tuple(game.state.positions[call.ball].tolist())
     mouth = tuple(TABLE.mouths[call.pocket].tolist())
-    return towards(place, ghost(ball, mouth)) + random.gauss(0.0, 0.2)  # type: ignore[arg-type]
+    return towards(place, ghost(ball, mouth)) + random.gauss(0.0, 0.2)
 
 
 def an_action(random: Random, game: Game) -> Action:
@@ -73,7 +74,7 @@ def an_action(random: Random, game: Game) -> Action:
         if not isnan(theta):
             v = random.uniform(1.0, 10.0) if game.phase is Phase.BREAK else random.uniform(0.5, 5.0)
             shot = Shot(v, phi, min(theta + 0.01, 70.0))
-            return Action(shot=shot, call=call, cue_ball=place)  # type: ignore[arg-type]
+            return Action(shot=shot, call=call, cue_ball=place)
 
 
 def moves(seed: int) -> Iterator[tuple[Game, Action, Ruling, Game]]:
@@ -150,7 +151,7 @@ def assert_result(outcome: Outcome | None) -> None:
 
 @settings(max_examples=150)
 @given(st.integers(min_value=0, max_value=2**32))
-def test_random_game_runs_to_its_end(seed: int) -> None:
+def test_random_game_runs_to_its_end(seed):
     """R1 to R51 together."""
     after = None
     for before, action, ruling, after in moves(seed):
@@ -161,7 +162,7 @@ def test_random_game_runs_to_its_end(seed: int) -> None:
     assert_result(after.outcome)
 
 
-def test_games_are_a_fair_sample() -> None:
+def test_games_are_a_fair_sample():
     """The random games reach what they are meant to reach: groups, wins and losses on the 8, choices."""
     reasons, decisions = set(), set()
     for seed in range(60):
@@ -174,6 +175,6 @@ def test_games_are_a_fair_sample() -> None:
     assert decisions & {Decision.ACCEPT_TABLE, Decision.SPOT_EIGHT, Decision.BALL_IN_HAND}
 
 
-def test_a_game_is_a_pure_function_of_its_actions() -> None:
+def test_a_game_is_a_pure_function_of_its_actions():
     """Same seed, same game, bit for bit."""
     assert [after for *_, after in moves(11)] == [after for *_, after in moves(11)]

@@ -35,7 +35,7 @@ class Cases:
     def __len__(self) -> int:
         return len(self.t_max)
 
-    def __getitem__(self, rows: object) -> "Cases":
+    def __getitem__(self, rows: slice | NDArray[np.bool_ | np.int_]) -> "Cases":
         return Cases(self.c[rows], self.b[rows], self.a[rows], self.t_max[rows], self.kind[rows])
 
 
@@ -49,7 +49,7 @@ def turned(v: FLOATS) -> FLOATS:
 
 
 def column(x: FLOATS) -> FLOATS:
-    return np.asarray(x)[:, None]
+    return x[:, None]
 
 
 def motions(rng: np.random.Generator, n: int) -> tuple[FLOATS, FLOATS, FLOATS]:
@@ -141,7 +141,7 @@ def touching_resting(rng: np.random.Generator, n: int) -> tuple[FLOATS, ...]:
     """No normal speed (exactly, on the axes): pressed together, parted or kept by the acceleration alone."""
     c, b, a, t_max, normal = touching(rng, n)
     still = rng.random(n) < 0.5
-    return c, np.where(column(still), 0.0, with_normal_speed(b, normal, np.zeros(n))), a, t_max
+    return c, np.where(still[:, None], 0.0, with_normal_speed(b, normal, np.zeros(n))), a, t_max
 
 
 def nearly_touching(rng: np.random.Generator, n: int) -> tuple[FLOATS, ...]:

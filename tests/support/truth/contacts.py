@@ -44,6 +44,11 @@ class Cluster:
         self.allowed: mpf | None = None
         self.classified = {ball.number: movement(ball) for ball in self.balls}
 
+    def most_energy(self) -> mpf:
+        """Set by `limit_from_now` before anything asks."""
+        assert self.allowed is not None
+        return self.allowed
+
     def note(self, kind: str, first: int, second: int) -> None:
         self.acted.append((kind, first, second))
 
@@ -214,7 +219,7 @@ def resolve(cluster: Cluster) -> None:
     limit_from_now(cluster)
     while part_pressed(cluster):
         reclassify(cluster)
-        if total_energy(cluster) > 2 * cluster.allowed:
+        if total_energy(cluster) > 2 * cluster.most_energy():
             break
         collide(cluster, cushions_only=True)
     limit_energy(cluster)
@@ -237,7 +242,7 @@ def limit_from_now(cluster: Cluster) -> None:
 
 def limit_energy(cluster: Cluster) -> None:
     """All velocities and spins times one factor; a cluster that would lose half its energy stops."""
-    before, after = cluster.allowed, total_energy(cluster)
+    before, after = cluster.most_energy(), total_energy(cluster)
     if after <= before:
         return
     factor = mpf(0) if after > 2 * before else (before / after) ** mpf("0.5")

@@ -31,6 +31,10 @@ class JawTruth:
         return cls(mpf(shape.nose_end), mpf(shape.horn_radius), start, normal, mpf(shape.facing_length), mpf(rho))
 
 
+def exact(pair: Pair) -> Pair:
+    return mpf(pair[0]), mpf(pair[1])
+
+
 def dot(a: Pair, b: Pair) -> mpf:
     return a[0] * b[0] + a[1] * b[1]
 
@@ -62,7 +66,7 @@ def first_contact(
     jaw: JawTruth, place: Pair, velocity: Pair, half: Pair, lasts: float
 ) -> tuple[mpf | None, mpf | None]:
     """First time at which the path meets the horn, and the facing, each by itself; None if it does not."""
-    path = tuple(tuple(mpf(x) for x in pair) for pair in (place, velocity, half))
+    path = exact(place), exact(velocity), exact(half)
     horn = first_fall(horn_polynomial(jaw, *path), mpf(lasts))
     facing = first_fall(facing_polynomial(jaw, *path), mpf(lasts))
     if facing is not None and not 0 <= foot(jaw, on_path(*path, facing)) <= jaw.length:

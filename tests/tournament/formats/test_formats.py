@@ -9,12 +9,13 @@ from support.events import by_lot, play, result_of, spec_of
 
 from tournament import InvalidResult, Tournament, standings
 from tournament.formats.knockout import bracket
+from tournament.pairings import Pair
 
 sizes = st.integers(2, 9)
 seeds = st.integers(0, 2**32)
 
 
-def met(event: Tournament) -> Counter:
+def met(event: Tournament) -> Counter[frozenset[str]]:
     """How often two names met, in meetings."""
     return Counter(frozenset(meeting.players) for meeting in event.meetings)
 
@@ -147,7 +148,8 @@ def test_an_extra_pair_that_decides_is_the_last():
 def test_what_was_certain_stays_and_nothing_depends_on_the_order_of_completion(kind, entrants, seed):
     spec = spec_of(entrants, format=kind, seed=seed, **({"rounds": 3} if kind == "swiss" else {}))
     choose = by_lot(seed)
-    event, before = Tournament(spec), ()
+    event = Tournament(spec)
+    before: tuple[Pair, ...] = ()
     while not event.finished:
         assert [pair for pair in event.pairs if pair in before] == sorted(before, key=lambda pair: pair.number)
         before = event.pairs

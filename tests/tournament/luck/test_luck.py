@@ -9,7 +9,7 @@ import pytest
 import client
 from physics import Shot, Table
 from referee import Action, EightBall, MatchSeed, NoiseModel, play_stroke, start_game
-from referee.game import EndReason, Outcome, Phase
+from referee.game import Decision, EndReason, Game, Outcome, Phase
 from tournament.luck import VALUE, ValueModel, game_luck, stroke_luck
 from tournament.luck.value import FEATURES, features
 
@@ -18,7 +18,7 @@ BREAK = Action(Shot(8.0, 270.0, 6.0))
 KEY = b"k" * 32
 
 
-def broken(match: int, level: float = 1.0):
+def broken(match: int, level: float = 1.0) -> tuple[Game, Game, NoiseModel]:
     """A game before and after its break."""
     seeds = MatchSeed.of(match).game(0)
     before = start_game(RULES, seeds)
@@ -59,7 +59,7 @@ def test_the_mean_luck_of_equal_strokes_is_zero(value):
 def test_a_decision_and_a_single_draw_are_refused():
     before, after, noise = broken(2)
     with pytest.raises(ValueError, match="a decision has no noise"):
-        stroke_luck(RULES, before, Action(decision="concede"), after, noise, key=KEY)
+        stroke_luck(RULES, before, Action(decision=Decision.CONCEDE), after, noise, key=KEY)
     with pytest.raises(ValueError, match="draws = 1"):
         stroke_luck(RULES, before, BREAK, after, noise, key=KEY, draws=1)
 

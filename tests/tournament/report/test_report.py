@@ -4,13 +4,14 @@ import csv
 import io
 import json
 from html.parser import HTMLParser
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy import stats
 from support.events import by_lot, play, result_of
 
-from tournament import Entrant, InvalidResult, NoisePlan, Spec, SprtTerms, Tournament
+from tournament import Entrant, Format, InvalidResult, NoisePlan, Spec, SprtTerms, Tournament
 from tournament.luck import GameLuck, StrokeLuck
 from tournament.report import COLUMNS, csv_text, event_report, json_lines, page, read_json_lines, server_report
 
@@ -24,7 +25,7 @@ RECORDS = [
 ]
 
 
-def nasty_event(**terms) -> Tournament:
+def nasty_event(**terms: Any) -> Tournament:
     """A finished event of entrants with names that want to be more than text."""
     choose = by_lot(5)
     event = Tournament(Spec("Open <b>&</b> noisy", tuple(Entrant(name) for name in NASTY), **terms))
@@ -80,6 +81,19 @@ def read(html: str) -> Reader:
 def report(request):
     event = nasty_event(noise=NoisePlan((0.0, 1.0, 5.0)), pairs=3)
     return event_report(event) if request.param == "event" else server_report("Standing", event.results)
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ("olympiad", "olympiad"),
+        ({"name": "nine_foot"}, "nine_foot"),
+        ({"name": "nine_foot", "mu_slide": 0.25, "cushion": "factors"}, "nine_foot, mu_slide 0.25, cushion factors"),
+    ],
+)
+def test_the_terms_name_the_table_and_what_is_otherwise_on_it(table, said):
+    reader = read(page(event_report(nasty_event(table=table))))
+    assert reader.words[reader.words.index("Table") + 1] == said
 
 
 def test_names_are_text_and_never_markup(report):
@@ -210,7 +224,7 @@ def test_superiority_and_both_kinds_of_intervals_are_told(report):
 
 def test_a_thousand_entrants_still_fit():
     """A crowd: plots and cross table show the first, the tables all."""
-    spec = Spec("crowd", tuple(Entrant(f"p{index}") for index in range(60)), format="gauntlet")
+    spec = Spec("crowd", tuple(Entrant(f"p{index}") for index in range(60)), format=Format.GAUNTLET)
     html = page(event_report(play(Tournament(spec), by_lot(1))))
     assert html.count("p59") >= 3
     read(html)

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from scipy import optimize, stats
 from support.events import by_lot, play, spec_of
 
+from referee.game import EndReason
 from tournament import GameResult, Tournament
 from tournament.statistics import ladder, rate
 from tournament.statistics.bradley_terry import ELO_PER_UNIT, PRIOR_GAMES
@@ -18,7 +19,7 @@ from tournament.statistics.bradley_terry import ELO_PER_UNIT, PRIOR_GAMES
 def games_of(rows):
     """Games from rows (first, second, winner's seat or None), two a pair."""
     return [
-        GameResult(f"p{number // 2}", number % 2, (one, other), number % 2, winner, "eight_made")
+        GameResult(f"p{number // 2}", number % 2, (one, other), number % 2, winner, EndReason.EIGHT_MADE)
         for number, (one, other, winner) in enumerate(rows)
     ]
 
@@ -111,7 +112,7 @@ def test_superiorities_are_those_of_two_sides(rows):
 
 def drawn_again(games, names, chance):
     """The ratings of as many pairs, drawn with replacement from those played."""
-    pairs = {}
+    pairs: dict[str, list[GameResult]] = {}
     for game in games:
         pairs.setdefault(game.pair, []).append(game)
     drawn = chance.choice(len(pairs), size=len(pairs))
@@ -171,7 +172,7 @@ def test_tables_that_never_met_are_rated_together():
 
 def test_games_that_do_not_count_are_passed_over():
     games = games_of([("a", "b", 0)] * 4)
-    aborted = GameResult("x", 0, ("b", "a"), 0, None, "aborted")
+    aborted = GameResult("x", 0, ("b", "a"), 0, None, EndReason.ABORTED)
     assert [one.to_dict() for one in rate([*games, aborted]).table] == [one.to_dict() for one in rate(games).table]
     assert ladder([*games, aborted]) == ladder(games)
 

@@ -25,6 +25,11 @@ PLACED_REACH = 0.25
 BLOCKED = 0.8
 """Chance that a ball no pocket is open for will be made when its turn comes: others move by then, or it is banked."""
 
+HALVINGS = 14
+"""Of the angle in which the edge of an entrance is looked for: some 1e-5 rad."""
+NARROWEST, WIDEST = 5e-5, 1.0
+"""rad to either side: an entrance that is narrower is closed; a ball that hangs in the jaws may go anywhere."""
+
 compiled = numba.njit(error_model="numpy", nogil=True, cache=bool(numba.config.CACHE_DIR))
 inner = numba.njit(error_model="numpy", nogil=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
@@ -116,11 +121,59 @@ def narrowed(view, ball, skip, way, fan, gain):
 
 
 @inner
+def offset_of(table, edges, first, step, count, angle):
+    """An edge of an entrance in a direction, between those that are known."""
+    place = min(max((angle - first) / step, 0.0), count - 1.0)
+    before = min(int(place), count - 2)
+    share = place - before
+    return (1.0 - share) * table[edges + before] + share * table[edges + before + 1]
+
+
+@inner
+def edge_of(table, entrance, edges, bearing, far):
+    """The direction along one edge of an entrance, as `client.geometry.openings` finds it: rad from the axis."""
+    first, step, count = table[entrance + at.FIRST], table[entrance + at.STEP], int(table[entrance + at.COUNT])
+    turn = math.asin(min(1.0, table[entrance + at.REACH] / far))
+    left, right = bearing - turn, bearing + turn
+    for _ in range(HALVINGS):
+        middle = 0.5 * (left + right)
+        if far * math.sin(middle - bearing) < offset_of(table, edges, first, step, count, middle):
+            left = middle
+        else:
+            right = middle
+    return 0.5 * (left + right)
+
+
+@inner
+def between_jaws(view, ball, place):
+    """`to_pocket` on a table with jaws: the middle of the directions in which the ball falls, and half of them."""
+    table = view.table
+    entrance = int(table[place + at.ENTRANCE])
+    x, y = view.row[ball, 0], view.row[ball, 1]
+    in_x, in_y = -table[place + at.INWARD_X], -table[place + at.INWARD_Y]
+    dx, dy = table[place + at.HOLE_X] - x, table[place + at.HOLE_Y] - y
+    bearing = math.atan2(in_x * dy - in_y * dx, in_x * dx + in_y * dy)
+    far = math.sqrt(dx * dx + dy * dy)
+    low = edge_of(table, entrance, entrance + at.EDGES, bearing, far)
+    high = edge_of(table, entrance, entrance + at.EDGES + int(table[entrance + at.COUNT]), bearing, far)
+    half = min(0.5 * (high - low), WIDEST)
+    turn = 0.5 * (low + high)
+    c, s = math.cos(turn), math.sin(turn)
+    ux, uy = c * in_x - s * in_y, s * in_x + c * in_y
+    if half <= NARROWEST:
+        return Lane(ux, uy, Fan(0.0, 0.0))
+    run = max((table[place + at.MOUTH_X] - x) * ux + (table[place + at.MOUTH_Y] - y) * uy, table[at.RADIUS])
+    return Lane(ux, uy, narrowed(view, ball, 0, Way(x, y, ux, uy, run), Fan(-half, half), 1.0))
+
+
+@inner
 def to_pocket(view, ball, pocket):
     """The lane of an object ball into a pocket; its fan is closed if it is blocked."""
     table = view.table
     place = at.MOUTHS + at.PER_POCKET * pocket
     x, y = view.row[ball, 0], view.row[ball, 1]
+    if table[place + at.ENTRANCE] > 0.0:
+        return between_jaws(view, ball, place)
     dx, dy = table[place + at.MOUTH_X] - x, table[place + at.MOUTH_Y] - y
     run = math.sqrt(dx * dx + dy * dy)
     if run < 1e-9:
