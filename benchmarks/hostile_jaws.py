@@ -229,7 +229,7 @@ Kind = Callable[[physics.RealTable, Rng, int], Scenes]
 
 def in_turn(table: physics.RealTable, rng: Rng, n: int, kinds: tuple[Kind, ...]) -> Scenes:
     """As many scenes of each of several classes."""
-    made = [kind(table, rng, len(range(first, n, len(kinds)))) for first, kind in enumerate(kinds)]
+    made = [kind(table, rng, len(range(first, n, len(kinds)))) for first, kind in enumerate(kinds[:n])]
     return np.concatenate([states for states, _ in made]), np.concatenate([shots for _, shots in made])
 
 
