@@ -158,7 +158,7 @@ def deepest_in_strips(ways: Ways, lasts: float, pieces: Pieces) -> float:
 def zeros(p: list[Floats]) -> tuple[Floats, Floats]:
     """Both roots of p0 + p1 t + p2 t^2, NaN where there are none."""
     p0, p1, p2 = p
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         root = np.sqrt(p1 * p1 - 4.0 * p0 * p2)
         q = -0.5 * (p1 + np.where(p1 >= 0.0, root, -root))
         return q / p2, p0 / q

@@ -229,7 +229,7 @@ Kind = Callable[[physics.RealTable, Rng, int], Scenes]
 
 def in_turn(table: physics.RealTable, rng: Rng, n: int, kinds: tuple[Kind, ...]) -> Scenes:
     """As many scenes of each of several classes."""
-    made = [kind(table, rng, len(range(first, n, len(kinds)))) for first, kind in enumerate(kinds)]
+    made = [kind(table, rng, len(range(first, n, len(kinds)))) for first, kind in enumerate(kinds[:n])]
     return np.concatenate([states for states, _ in made]), np.concatenate([shots for _, shots in made])
 
 
@@ -284,6 +284,9 @@ CLASSES: dict[str, Kind] = {
 LAWS = ("han", "han", "han", "mathavan", "factors")
 """Cushion laws of chunks, drawn."""
 
+BALL_LAWS = ("alciatore", "consistent")
+"""Laws of two balls, drawn at the limits of the table. Not ``fastfiz``: it gains energy, so that balls may not rest."""
+
 EDGES = {
     "mu_slide": (0.01, 0.2, 1.0),
     "mu_roll": (0.001, 0.01, 1.0),
@@ -321,6 +324,6 @@ def table_for(kind: str, rng: Rng) -> physics.RealTable:
         values = {name: float(rng.choice(ends)) for name, ends in EDGES.items() if rng.random() < 0.7}
         values["mu_roll"] = min(values.get("mu_roll", 0.01), values.get("mu_slide", 0.2))
         try:
-            return table.replace(**values, ball=str(rng.choice(["alciatore", "consistent", "fastfiz"])))
+            return table.replace(**values, ball=str(rng.choice(BALL_LAWS)))
         except physics.InvalidTable:
             continue

@@ -228,18 +228,22 @@ def truth(table: physics.Table, state: scenes.Floats, shot: scenes.Floats) -> sc
 
 
 def errors(name: str, step: float | None, seconds: float, ends: list[Any], truths: list[Any]) -> Row:
-    """Errors of one way to simulate; infinite where the ball is in a pocket, or not, by mistake."""
+    """Errors of one way to simulate, infinite where the ball is in a pocket, or not, by mistake; medians of those on
+    the table.
+    """
     found = np.array(
         [
             (np.inf if np.isnan(end).any() != np.isnan(true).any() else float(np.nan_to_num(np.abs(end - true)).max()))
             for end, true in zip(ends, truths, strict=True)
         ]
     )
-    median = float(np.median(found))
+    stays = ~np.isnan(np.array(truths)).any(axis=1)
+    median = float(np.median(found[stays]))
     return {
         "method": name,
         "step_s": step,
         "shots": len(found),
+        "on_table": int(stays.sum()),
         "seconds_per_shot": seconds,
         "median_error_m": median if np.isfinite(median) else None,
         "pocketed_or_not_by_mistake": int(np.isinf(found).sum()),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import physics
-from benchmarks import everything, hostile, hostile_jaws, pieces, smallest, soundness, stress, unfiltered, variants
+from benchmarks import everything, hostile, hostile_jaws, pieces, smallest, soundness, stress
 from referee import Limits
 
 SEED = 5
@@ -22,16 +22,6 @@ def test_hostile_shots_on_tables_with_jaws(kind):
     assert tally.flights >= 6
     if "limits" not in kind:
         assert tally.status["AT_REST"] == tally.shots
-
-
-def test_no_filter_and_no_broad_phase_leave_the_same_bits():
-    """Some shots of every class, interpreted, every ball against every ball, nose, jaw and hole."""
-    jobs = [(kind, SEED, 3) for kind in hostile_jaws.CLASSES if kind != "jaws: touching balls"]
-    look = "benchmarks.unfiltered:look_at_everything", "benchmarks.unfiltered:replayed"
-    found = variants.run(*look, jobs, interpreted=True)
-    for job, hashes in zip(jobs, found, strict=True):
-        batch = physics.simulate_batch(*stress.scene_of(*job))
-        assert unfiltered.hashes_of(batch).tolist() == hashes.tolist(), job
 
 
 def test_the_oracle_agrees_with_looking_often():

@@ -247,14 +247,15 @@ def test_a_ball_that_runs_round_a_horn_parts_from_it():
     shape, (ns, nd), gaps = NINE.corner_shape, (-0.28, 0.96), []
     reach = shape.horn_radius + RHO
     place = shape.nose_end + reach * ns, reach * nd - shape.horn_radius
-    for speed in (0.05, 0.5):  # 0.04 and 3.7 m/s^2 against 0.98
+    for speed in (0.05, 0.5):  # 0.04 m/s^2 against 0.97, 3.7 against 0.5
         slipping_off = (0.3 * nd / R, -0.3 * ns / R, 0.0)  # R k x w = 0.3 m/s along the normal
         result = let_go(NINE, {1: Launch(place, (speed * nd, -speed * ns), slipping_off)})
         centre = result.at(0.002).positions[1].tolist()
         gaps.append(math.dist(centre, (shape.nose_end, -shape.horn_radius)) - reach)
     slow, fast = (speed * speed / (2.0 * reach) for speed in (0.05, 0.5))
     assert gaps[0] == pytest.approx(slow * 0.002**2, rel=0.1)
-    assert gaps[1] == pytest.approx((fast - 0.5 * NINE.mu_slide * NINE.gravity) * 0.002**2, rel=0.1)
+    drawn_in = 0.5 * NINE.mu_slide * NINE.gravity * 0.3 / math.hypot(0.3, 0.5)  # the slip's share along the normal
+    assert gaps[1] == pytest.approx((fast - drawn_in) * 0.002**2, rel=0.03)
 
 
 def test_masses_of_ball_and_cue_make_the_speed():
