@@ -169,9 +169,9 @@ def compiling(sides: dict[str, Side], pairs: int) -> Iterator[Row]:
 
 def instructions(sides: dict[str, Side], given: Scenes) -> Iterator[Row]:
     """Instructions that callgrind counts, the call's Python included; nothing where there is no valgrind."""
-    if shutil.which("valgrind") is None:
+    counts = {name: counted(side, given) for name, side in sides.items()}
+    if not all(counts.values()):
         return
-    counts = {name: count(side, given) for name, side in sides.items()}
     for scene in given:
         base, now = counts["base"][scene], counts["now"][scene]
         shots = len(given[scene]["shots"])
@@ -184,10 +184,13 @@ def instructions(sides: dict[str, Side], given: Scenes) -> Iterator[Row]:
         }
 
 
-def count(side: Side, given: Scenes) -> dict[str, int]:
-    """Instructions of each scene."""
-    with side.start(given, plain=True):
-        pass  # compiled where it is fast
+def counted(side: Side, given: Scenes) -> dict[str, int]:
+    """Instructions of each scene; nothing where there is no valgrind."""
+    if shutil.which("valgrind") is None:
+        return {}
+    with side.start(given, plain=True) as child:  # compiled where it is fast
+        for scene in given:
+            child.ask("time", scene)
     with tempfile.TemporaryDirectory() as out:
         tool = ("valgrind", "--tool=callgrind", "--instr-atstart=no", f"--callgrind-out-file={out}/out", "-q")
         with side.start(given, plain=True, under=tool) as child:

@@ -10,7 +10,7 @@ from benchmarks.recording import Row, Tables
 from client.learn import ACTION_SIZE, EightBallAEC, EightBallEnv, EightBallVectorEnv
 
 SEED = 7
-SIZES = (1, 8, 32, 128)
+SIZES = (1, 8, 32, 128, 1024)
 """Games of a vector environment; each divides the number of steps."""
 
 

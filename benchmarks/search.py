@@ -23,6 +23,7 @@ from client.agents.search import SearchAgent
 from client.local_game import PlayedGame, play_game
 from physics import Table
 from physics.engine import digest_of
+from physics.table import NAMED
 from protocol import View
 from referee import Action, Call, EightBall, Stroke
 from referee.play import MatchSeed, NoiseModel
@@ -30,7 +31,8 @@ from tournament.statistics import score_of_cells
 
 SEED = 2026
 """Of all racks and all noise."""
-RULES = EightBall(Table.olympiad())
+USUAL = "olympiad"
+"""The table unless told, and of pieces that name none."""
 
 
 @dataclass
@@ -104,8 +106,9 @@ def _kind(stroke: Stroke) -> str:
     return "break " if stroke.action.call is None else ""
 
 
-def play_pair(players: tuple[str, str], noise: float, pair: int) -> Row:
+def play_pair(players: tuple[str, str], noise: float, table: str, pair: int) -> Row:
     """Two games on the same racks; each player breaks one of them."""
+    rules = EightBall(Table.named(table))
     seed = MatchSeed.of(SEED)
     factories = [client.load(name, seed=SEED + pair) for name in players]
     tallies = (Tally(), Tally())
@@ -113,20 +116,25 @@ def play_pair(players: tuple[str, str], noise: float, pair: int) -> Row:
         number = 2 * pair + breaker
         chairs = Chair(factories[0]()), Chair(factories[1]())
         seeds = seed.game(number, pairs=True)
-        game = play_game(RULES, chairs, seeds, NoiseModel(noise), breaker=breaker, number=number)
+        game = play_game(rules, chairs, seeds, NoiseModel(noise), breaker=breaker, number=number)
         for seat, chair in enumerate(chairs):
             tallies[seat].add(game, seat, chair)
     first, second = (tally.row() for tally in tallies)
-    return {"pair": pair, "player": players[0], "opponent": players[1], "noise": noise, "of_player": first} | {
-        "of_opponent": second
-    }
+    return {
+        "pair": pair,
+        "player": players[0],
+        "opponent": players[1],
+        "noise": noise,
+        "table": table,
+        "of_player": first,
+    } | {"of_opponent": second}
 
 
-def play(players: tuple[str, str], noise: float, first: int, pairs: int, seconds: float) -> Tables:
+def play(players: tuple[str, str], noise: float, table: str, first: int, pairs: int, seconds: float) -> Tables:
     """Some pairs, one after the other; no new one is begun after so many seconds."""
     started, rows, agent = time.monotonic(), [], agent_digest()
     for pair in range(first, first + pairs):
-        rows.append(play_pair(players, noise, pair) | {"agent": agent})
+        rows.append(play_pair(players, noise, table, pair) | {"agent": agent})
         if time.monotonic() - started > seconds:
             break
     return {"pairs": rows}
@@ -145,11 +153,12 @@ def pool(versions: list[list[str]]) -> Tables:
         versions: in groups whose play does not differ, the present one first; each row names those it holds.
     """
     group_of = {version: place for place, group in enumerate(versions) for version in group}
-    found: dict[tuple[int, str, str, float], dict[int, Row]] = defaultdict(dict)
+    found: dict[tuple[int, str, str, float, str], dict[int, Row]] = defaultdict(dict)
     for line in recording.lines("search"):
         for row in line["tables"].get("pairs", []):
             if row["agent"] in group_of:
-                found[group_of[row["agent"]], row["player"], row["opponent"], row["noise"]][row["pair"]] = row
+                key = group_of[row["agent"]], row["player"], row["opponent"], row["noise"], row.get("table", USUAL)
+                found[key][row["pair"]] = row
     matches = {key: match_row(*key[1:], list(rows.values())) for key, rows in sorted(found.items())}
     return {
         "matches": list(matches.values()),
@@ -160,7 +169,7 @@ def pool(versions: list[list[str]]) -> Tables:
 
 def strength_row(match: Row) -> Row:
     """What a match-up against `greedy` says of the agent's strength."""
-    kept = ("noise", "score", "low_95", "high_95", "break_and_run", "opponent_break_and_run", "share_made")
+    kept = ("noise", "table", "score", "low_95", "high_95", "break_and_run", "opponent_break_and_run", "share_made")
     return (
         {"player": match["player"].removesuffix(",cpu=on"), "games": 2 * match["pairs"]}
         | {name: match[name] for name in kept}
@@ -171,12 +180,21 @@ def strength_row(match: Row) -> Row:
 def part_row(match: Row) -> Row:
     """What a match-up against the agent without one of its parts says of that part's worth."""
     budget, _, part = match["opponent"].removesuffix("=off").rpartition(",")
-    kept = ("noise", "score", "elo", "elo_low_95", "elo_high_95", "shots_per_stroke", "opponent_shots_per_stroke")
+    kept = (
+        "noise",
+        "table",
+        "score",
+        "elo",
+        "elo_low_95",
+        "elo_high_95",
+        "shots_per_stroke",
+        "opponent_shots_per_stroke",
+    )
     row = {"part": part, "player": budget, "agents": match["agents"], "games": 2 * match["pairs"]}
     return row | {name: match[name] for name in kept}
 
 
-def match_row(player: str, opponent: str, noise: float, pairs: list[Row]) -> Row:
+def match_row(player: str, opponent: str, noise: float, table: str, pairs: list[Row]) -> Row:
     """One match-up: the score with its interval from pairs, and what both did."""
     halves = Counter(round(2.0 * row["of_player"]["points"]) for row in pairs)
     score = score_of_cells([halves[cell] for cell in range(5)])
@@ -188,6 +206,7 @@ def match_row(player: str, opponent: str, noise: float, pairs: list[Row]) -> Row
         "player": player,
         "opponent": opponent,
         "noise": noise,
+        "table": table,
         "agents": " ".join(sorted({row["agent"] for row in pairs})),
         "pairs": len(pairs),
         "score": round(score.score, 4),
@@ -218,7 +237,7 @@ def summed(rows: list[Row]) -> Row:
 def measure(full: bool) -> Tables:
     """A look at the present agent; the cited figures are pooled from pieces."""
     shots, pairs = (20_000, 20) if full else (1_000, 1)
-    return play((f"search:shots={shots}", "greedy"), 1.0, 0, pairs, seconds=3600.0)
+    return play((f"search:shots={shots}", "greedy"), 1.0, USUAL, 0, pairs, seconds=3600.0)
 
 
 def main() -> None:
@@ -236,6 +255,7 @@ def main() -> None:
     piece.add_argument("--player", default="search:seconds=1,cpu=on")
     piece.add_argument("--opponent", default="greedy")
     piece.add_argument("--noise", type=float, default=1.0)
+    piece.add_argument("--table", default=USUAL, choices=tuple(NAMED))
     piece.add_argument("--first", type=int, default=0)
     piece.add_argument("--pairs", type=int, default=10)
     piece.add_argument("--seconds", type=float, default=240.0)
@@ -243,7 +263,7 @@ def main() -> None:
     todo: Callable[[bool], Tables] = lambda _full: pool([group.split("+") for group in given.versions])  # noqa: E731
     if given.command == "play":
         players = given.player, given.opponent
-        todo = lambda _full: play(players, given.noise, given.first, given.pairs, given.seconds)  # noqa: E731
+        todo = lambda _full: play(players, given.noise, given.table, given.first, given.pairs, given.seconds)  # noqa: E731
     recording.run("search", todo, full=given.command == "pool")
 
 

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 import physics
 from benchmarks.command import main
 from benchmarks.recording import Row, Tables
-from client.agents.search.breaks import BREAKING, Break, best_break
+from client.agents.search.breaks import Break, best_break, worth_of_breaking
 from client.agents.search.evaluate import SIGMAS
 from client.agents.search.sight import Sight
 from client.agents.search.value import Values
-from physics.constants import THETA_MAX, V_MAX
+from physics import Table
 from physics.shot import FIELDS
 from referee import Action, Decision, EightBall, Game, Phase, RuleId, Ruling
 
@@ -30,59 +30,67 @@ NEIGHBOURS, STEPS = 4, (0.015, 0.01, 0.25, 1.2, 1.0, 1.0)
 """After the first round the best get neighbours, so far away: m, m, m/s, mm, mm, mm."""
 LEAST_BEHIND = 0.002
 """m behind the head string."""
-TABLE = physics.Table.olympiad()
-RULES = EightBall(TABLE)
+TABLES = ("olympiad", "nine_foot")
+WITHIN_FRICTION = 0.75
+"""Of the tip offsets that are tried elsewhere: further out a tip slips on tables with jaws, noise included."""
 
 
 def measure(full: bool) -> Tables:
     """The best breaks of each level, and the one that is played now."""
     rounds = ROUNDS if full else tuple((max(2, kept // 10), racks) for kept, racks in ROUNDS[:-1])
-    return {f"noise_{level:g}": study(level, rounds) for level in LEVELS}
+    referees = {name: EightBall(physics.Table.named(name)) for name in TABLES}
+    return {
+        f"{name.replace('olympiad', '')}_noise_{level:g}".lstrip("_"): study(rules, level, rounds)
+        for name, rules in referees.items()
+        for level in LEVELS
+    }
 
 
-def study(level: float, rounds: tuple[tuple[int, int], ...]) -> list[Row]:
+def study(rules: EightBall, level: float, rounds: tuple[tuple[int, int], ...]) -> list[Row]:
     """The best breaks under one level of noise, the best first."""
     chance = np.random.default_rng(SEED)
-    breaks = [best_break(level), *(random_break(chance) for _ in range(rounds[0][0] - 1))]
+    breaks = [best_break(level, rules.table), *(random_break(rules.table, chance) for _ in range(rounds[0][0] - 1))]
     rows: list[Row] = []
     for number, (kept, racks) in enumerate(rounds):
         breaks = breaks[:kept]
         if number == 1:
-            breaks += [near(one, chance) for one in breaks[: kept // 4] for _ in range(NEIGHBOURS)]
-        games = [RULES.new_game(1000 * number + rack) for rack in range(min(racks, 500))]
-        rows = [row(one, level, games, racks, number) for one in breaks]
+            breaks += [near(rules.table, one, chance) for one in breaks[: kept // 4] for _ in range(NEIGHBOURS)]
+        games = [rules.new_game(1000 * number + rack) for rack in range(min(racks, 500))]
+        rows = [row(rules, one, level, games, racks, number) for one in breaks]
         order = sorted(range(len(rows)), key=lambda index: -float(rows[index]["worth"]))
         breaks, rows = [breaks[index] for index in order], [rows[index] for index in order]
     return rows
 
 
-def random_break(chance: np.random.Generator) -> Break:
+def random_break(table: Table, chance: np.random.Generator) -> Break:
     """A break from anywhere in the kitchen, hard, at the apex ball or beside it."""
-    radius = TABLE.ball_radius
+    radius, share = table.ball_radius, WITHIN_FRICTION if table.has_jaws else 1.0
     return Break(
-        x=round(float(chance.uniform(radius, 0.5 * TABLE.width)), 4),
-        y=round(float(chance.uniform(TABLE.head_string + LEAST_BEHIND, TABLE.head_string + 0.25)), 4),
-        v=round(float(chance.choice([V_MAX, chance.uniform(5.0, V_MAX)])), 2),
+        x=round(float(chance.uniform(radius, 0.5 * table.width)), 4),
+        y=round(float(chance.uniform(table.head_string + LEAST_BEHIND, table.head_string + 0.25)), 4),
+        v=round(float(chance.choice([table.v_max, chance.uniform(5.0, table.v_max)])), 2),
         aim=round(float(chance.normal(0.0, 16.0)), 2),
-        a=round(float(chance.choice([0.0, chance.uniform(-12.0, 12.0)])), 2),
-        b=round(float(chance.uniform(-14.0, 14.0)), 2),
+        a=round(share * float(chance.choice([0.0, chance.uniform(-12.0, 12.0)])), 2),
+        b=round(share * float(chance.uniform(-14.0, 14.0)), 2),
     )
 
 
-def near(one: Break, chance: np.random.Generator) -> Break:
+def near(table: Table, one: Break, chance: np.random.Generator) -> Break:
     """A break much like this one."""
     x, y, v, aim, a, b = (
         value + step * float(chance.normal()) for value, step in zip(dataclasses.astuple(one), STEPS, strict=True)
     )
-    y, v = max(y, TABLE.head_string + LEAST_BEHIND), min(v, V_MAX)
+    y, v = max(y, table.head_string + LEAST_BEHIND), min(v, table.v_max)
     return Break(round(x, 4), round(y, 4), round(v, 2), round(aim, 2), round(a, 2), round(b, 2))
 
 
-def row(one: Break, level: float, games: list[Game], copies: int, number: int) -> Row:
+def row(rules: EightBall, one: Break, level: float, games: list[Game], copies: int, number: int) -> Row:
     """How one break does on these racks."""
     chance = np.random.default_rng([SEED, number])
-    rulings = [ruling for game in games for ruling in broken(one, level, game, max(1, copies // len(games)), chance)]
-    worths = worth(level, rulings)
+    rulings = [
+        ruling for game in games for ruling in broken(rules, one, level, game, max(1, copies // len(games)), chance)
+    ]
+    worths = worth(rules, level, rulings)
     fouled = [bool(ruling.fouls) for ruling in rulings]
     return {
         **dataclasses.asdict(one),
@@ -96,42 +104,48 @@ def row(one: Break, level: float, games: list[Game], copies: int, number: int) -
     }
 
 
-def broken(one: Break, level: float, game: Game, copies: int, chance: np.random.Generator) -> list[Ruling]:
+def broken(
+    rules: EightBall, one: Break, level: float, game: Game, copies: int, chance: np.random.Generator
+) -> list[Ruling]:
     """The rulings on a break played so often on one rack."""
     state = game.state.moved(0, one.place)
-    shot = one.stroke(TABLE, state)
+    shot = one.stroke(rules.table, state)
     strokes = np.array([[getattr(shot, name) for name in FIELDS]] * (copies if level > 0.0 else 1))
     strokes = strokes + level * SIGMAS * chance.standard_normal(strokes.shape)
-    strokes[:, 0], strokes[:, 2] = np.clip(strokes[:, 0], 0.0, V_MAX), np.clip(strokes[:, 2], 0.0, THETA_MAX)
-    batch = physics.simulate_batch(TABLE, state, strokes)
-    return RULES.apply_batch(game, [Action(shot=shot, cue_ball=one.place)] * len(strokes), batch)
+    strokes[:, 0], strokes[:, 2] = (
+        np.clip(strokes[:, 0], 0.0, rules.table.v_max),
+        np.clip(strokes[:, 2], 0.0, rules.table.theta_max),
+    )
+    batch = physics.simulate_batch(rules.table, state, strokes)
+    return rules.apply_batch(game, [Action(shot=shot, cue_ball=one.place)] * len(strokes), batch)
 
 
-def worth(level: float, rulings: list[Ruling]) -> NDArray[np.float64]:
+def worth(rules: EightBall, level: float, rulings: list[Ruling]) -> NDArray[np.float64]:
     """What each break leaves its player, seat 0; a choice is worth its best answer to whoever decides."""
-    return np.array([settled(level, ruling.game) for ruling in rulings])
+    return np.array([settled(rules, level, ruling.game) for ruling in rulings])
 
 
-def settled(level: float, game: Game) -> float:
+def settled(rules: EightBall, level: float, game: Game) -> float:
     """A game's worth to seat 0."""
     if game.phase is not Phase.DECISION:
-        return to_breaker(level, game)
-    answers = [decided(level, game, each) for each in game.decisions]
+        return to_breaker(rules, level, game)
+    answers = [decided(rules, level, game, each) for each in game.decisions]
     return max(answers) if game.turn == 0 else min(answers)
 
 
-def decided(level: float, game: Game, decision: Decision) -> float:
+def decided(rules: EightBall, level: float, game: Game, decision: Decision) -> float:
     """The worth to seat 0 when the player in turn decides so."""
-    ruling = RULES.apply(game, Action(decision=decision), None, None)
+    ruling = rules.apply(game, Action(decision=decision), None, None)
     if ruling.rerack:
-        return BREAKING if ruling.game.turn == 0 else 1.0 - BREAKING
-    return to_breaker(level, ruling.game)
+        breaking = worth_of_breaking(rules.table)
+        return breaking if ruling.game.turn == 0 else 1.0 - breaking
+    return to_breaker(rules, level, ruling.game)
 
 
-def to_breaker(level: float, game: Game) -> float:
+def to_breaker(rules: EightBall, level: float, game: Game) -> float:
     """The worth to seat 0 of a table somebody shoots from."""
-    values = Values(Sight(TABLE, level), level)
-    kitchen = TABLE.head_string if game.cue_ball_in_hand == "kitchen" else 0.0
+    values = Values(Sight(rules.table, level), level)
+    kitchen = rules.table.head_string if game.cue_ball_in_hand == "kitchen" else 0.0
     hand = np.array([game.cue_ball_in_hand is not None])
     shooter = float(values.to_shoot(game.state.positions[None], np.array([-1], np.int8), hand, kitchen)[0])
     return shooter if game.turn == 0 else 1.0 - shooter

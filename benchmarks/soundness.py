@@ -7,10 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 import physics
+from benchmarks import pieces
 from benchmarks.scenes import Booleans, Floats
 
 PERMITTED = 1e-12
 """m. Overlap, and distance beyond a cushion line, that is no fault; the start's if that is more."""
+
+ROUNDING = 1e-15
+"""m, of a place as it is written and read."""
 
 NOT_PLAYED = (
     physics.Status.CUE_OBSTRUCTED,
@@ -45,7 +49,9 @@ def overlap(table: physics.Table, states: Floats) -> Floats:
 
 
 def beyond(table: physics.Table, states: Floats) -> Floats:
-    """(n,) m: how far the outermost ball lies beyond a cushion line or a corner mouth's line."""
+    """(n,) m: how far the outermost ball lies beyond a cushion line or a corner mouth's line, or in a jaw or a hole."""
+    if isinstance(table, physics.RealTable):
+        return np.fmax.reduce(pieces.beyond(pieces.pieces_of(table), states), axis=1, initial=0.0)
     side = np.abs(states[..., 0] - 0.5 * table.width)
     end = np.abs(states[..., 1] - 0.5 * table.length)
     line_x, line_y = 0.5 * table.width - table.ball_radius, 0.5 * table.length - table.ball_radius
@@ -56,6 +62,8 @@ def beyond(table: physics.Table, states: Floats) -> Floats:
 
 def misplaced(table: physics.Table, states: Floats) -> Booleans:
     """Whether a ball of each state lies where ``Table.contains`` says none may lie."""
+    if isinstance(table, physics.RealTable):
+        return np.asarray((~table.contains(states[..., 0], states[..., 1]) & ~np.isnan(states[..., 0])).any(axis=1))
     side = np.abs(states[..., 0] - 0.5 * table.width)
     end = np.abs(states[..., 1] - 0.5 * table.length)
     margin = 1e-6
@@ -81,7 +89,7 @@ def judge(table: physics.Table, states: Floats, batch: physics.Batch) -> Verdict
         "event limit": batch.status == physics.Status.EVENT_LIMIT,
         "unnamed status": ~np.isin(batch.status, [int(status) for status in physics.Status]),
         "nan": (gone != accounted).any(axis=1) | ~np.isfinite(batch.duration) | (batch.duration < 0.0),
-        "escape": misplaced(table, final) | (out > np.maximum(beyond(table, states), PERMITTED)),
+        "escape": misplaced(table, final) | (out > np.maximum(beyond(table, states) + ROUNDING, PERMITTED)),
         "overlap": deep > permitted,
         "moved though refused": refused & ~same,
     }

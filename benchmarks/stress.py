@@ -1,6 +1,8 @@
 """Hostile random shots by class. Every one has to end at rest or be refused by name: no NaN, escape, overlap, loop.
 
-A failure is reported with its class, seed and row, and as a scene that can be pasted into a test.
+A failure is reported with its class, seed and row, and as a scene that can be pasted into a test. On tables with jaws
+a quarter is played again by kernels without filter and broad phase, which must leave the same bits (``unfiltered``),
+and some are looked over between their events, everything against everything (``everything``).
 """
 
 import concurrent.futures
@@ -9,17 +11,17 @@ import multiprocessing
 import os
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
 
 import physics
-from benchmarks import hostile, soundness
+from benchmarks import everything, hostile, hostile_jaws, pieces, soundness, unfiltered, variants
 from benchmarks.command import main
 from benchmarks.recording import Row, Tables
 
-CHUNK = {"limits of the table": 200}
+CHUNK = {"limits of the table": 200, "jaws: limits of the table": 200}
 """Shots simulated together, by class: one table each."""
 USUAL_CHUNK = 2_000
 
@@ -28,6 +30,14 @@ PATIENCE = 300.0
 
 INSTANTS = 120
 """Instants looked at in the flight of a traced shot."""
+
+STRETCHES = 40
+"""Stretches between events that the oracle looks at in a shot on a table with jaws."""
+
+REPLAYED = 4
+"""One chunk in so many is played again by kernels that filter nothing."""
+
+CLASSES = hostile.CLASSES | hostile_jaws.CLASSES
 
 MOST_FAILURES = 24
 """Failures kept in the data line; the table counts all."""
@@ -48,19 +58,24 @@ class Tally:
     overlap: float = 0.0
     flight_overlap: float = 0.0
     beyond: float = 0.0
+    contacts: int = 0
+    apart: float = 0.0
+    replayed: int = 0
     status: Counter[str] = dataclasses.field(default_factory=Counter)
     faults: Counter[str] = dataclasses.field(default_factory=Counter)
     failures: list[Row] = dataclasses.field(default_factory=list)
+    hashes: dict[int, unfiltered.Hashes] = dataclasses.field(default_factory=dict)
 
     def add(self, other: "Tally") -> None:
         """Take in another tally of the class."""
-        for name in ("shots", "events", "seconds", "flights"):
+        for name in ("shots", "events", "seconds", "flights", "contacts"):
             setattr(self, name, getattr(self, name) + getattr(other, name))
-        for name in ("most_events", "overlap", "flight_overlap", "beyond"):
+        for name in ("most_events", "overlap", "flight_overlap", "beyond", "apart"):
             setattr(self, name, max(getattr(self, name), getattr(other, name)))
         self.status += other.status
         self.faults += other.faults
         self.failures += other.failures
+        self.hashes |= other.hashes
 
     def row(self, kind: str) -> Row:
         """One line of the table."""
@@ -83,22 +98,49 @@ class Tally:
             "us_per_shot": round(self.seconds / max(self.shots, 1) * 1e6, 1),
         }
 
+    def jaws_row(self, kind: str) -> Row:
+        """The same for a class on tables with jaws."""
+        more = {
+            "contacts_looked_at": self.contacts,
+            "worst_gap_at_contact_m": self.apart,
+            "invented": self.faults["invented contact"],
+            "without_filter": self.replayed,
+            "other_bits_without_filter": self.faults["other bits"],
+        }
+        return self.row(kind.removeprefix("jaws: ")) | more
+
 
 def measure(full: bool) -> Tables:
-    """Run every class; a million shots in all when ``full``."""
-    shots, flights = (92_000, 2_000) if full else (4_000, 200)
-    tallies = run(shots, flights, processes=len(os.sched_getaffinity(0)))
-    rows = [tally.row(kind) for kind, tally in tallies.items()]
-    failures = [failure for tally in tallies.values() for failure in tally.failures]
-    return {"by_class": rows, "failures": failures[:MOST_FAILURES]}
+    """Run every class; a million shots on either kind of table when ``full``."""
+    straight, jaws = on_straight_mouths(full), on_jaws(full)
+    return straight | jaws | {"failures": (straight["failures"] + jaws["failures"])[:MOST_FAILURES]}
 
 
-def run(shots: int, flights: int, processes: int) -> dict[str, Tally]:
-    """``shots`` of each class, ``flights`` of them followed instant by instant, in worker processes."""
-    tallies = {kind: Tally() for kind in hostile.CLASSES}
-    physics.simulate_batch(*nothing())  # compiles before there are several processes to do it
+def on_straight_mouths(full: bool) -> Tables:
+    """The classes of ``hostile``."""
+    tallies = run(hostile.CLASSES, *((92_000, 2_000) if full else (4_000, 200)))
+    return {"by_class": [tally.row(kind) for kind, tally in tallies.items()], "failures": failures_of(tallies)}
+
+
+def on_jaws(full: bool) -> Tables:
+    """The classes of ``hostile_jaws``, compared with kernels that filter nothing."""
+    tallies = run(hostile_jaws.CLASSES, *((102_000, 100) if full else (4_000, 40)))
+    compare(tallies)
+    return {"jaws": [tally.jaws_row(kind) for kind, tally in tallies.items()], "failures": failures_of(tallies)}
+
+
+def failures_of(tallies: dict[str, Tally]) -> list[Row]:
+    """The first of all failures."""
+    return [failure for tally in tallies.values() for failure in tally.failures][:MOST_FAILURES]
+
+
+def run(classes: Iterable[str], shots: int, flights: int) -> dict[str, Tally]:
+    """``shots`` of each class, ``flights`` of them followed instant by instant, in a process for each core allowed."""
+    processes = len(os.sched_getaffinity(0))
+    tallies = {kind: Tally() for kind in classes}
+    physics.simulate_batch(*nothing(classes))  # compiles before there are several processes to do it
     pool = concurrent.futures.ProcessPoolExecutor(processes, mp_context=multiprocessing.get_context("spawn"))
-    jobs = [job for kind in hostile.CLASSES for job in chunks(kind, shots, flights)]
+    jobs = [job for kind in classes for job in chunks(kind, shots, flights)]
     waiting = {pool.submit(attempt, *job): job for job in jobs}
     while waiting:
         finished, _ = concurrent.futures.wait(waiting, PATIENCE, return_when=concurrent.futures.FIRST_COMPLETED)
@@ -126,9 +168,16 @@ def give_up(
         process.kill()
 
 
-def nothing() -> tuple[physics.Table, physics.TableState, list[list[float]]]:
-    """A shot without balls."""
-    return physics.Table.olympiad(), physics.TableState.from_positions({}), [[1.0, 0.0, 0.0, 0.0, 0.0]]
+def nothing(classes: Iterable[str]) -> tuple[physics.Table, physics.TableState, list[list[float]]]:
+    """A shot without balls on a table of the first class."""
+    table = table_of(next(iter(classes)), np.random.default_rng(0))
+    return table, physics.TableState.from_positions({}), [[1.0, 0.0, 0.0, 0.0, 0.0]]
+
+
+def table_of(kind: str, rng: hostile.Rng) -> physics.Table:
+    """The table that a class is played on."""
+    home = hostile if kind in hostile.CLASSES else hostile_jaws
+    return home.table_for(kind, rng)
 
 
 def chunks(kind: str, shots: int, flights: int) -> Iterator[tuple[str, int, int, int]]:
@@ -142,14 +191,14 @@ def chunks(kind: str, shots: int, flights: int) -> Iterator[tuple[str, int, int,
 def scene_of(kind: str, seed: int, n: int) -> tuple[physics.Table, hostile.Floats, hostile.Floats]:
     """Table, states and shots of a chunk: the same for the same seed."""
     rng = np.random.default_rng([seed, *kind.encode()])
-    table = hostile.table_for(kind, rng)
-    return table, *hostile.CLASSES[kind](table, rng, n)
+    table = table_of(kind, rng)
+    return table, *CLASSES[kind](table, rng, n)
 
 
 def attempt(kind: str, seed: int, n: int, flights: int) -> Tally:
     """Simulate one chunk and judge it."""
     table, states, shots = scene_of(kind, seed, n)
-    physics.simulate_batch(*nothing())  # loads the kernels: not part of the time
+    physics.simulate_batch(*nothing([kind]))  # loads the kernels: not part of the time
     started = time.thread_time()
     batch = physics.simulate_batch(table, states, shots)
     seconds = time.thread_time() - started
@@ -167,6 +216,8 @@ def attempt(kind: str, seed: int, n: int, flights: int) -> Tally:
         tally.faults[fault] += int(found.sum())
         for row in soundness.first_rows(found, SHOWN).tolist():
             tally.failures.append(failure(kind, seed, row, fault, table, states[row], shots[row]))
+    if table.has_jaws:
+        tally.hashes[seed] = unfiltered.hashes_of(batch)
     for row in soundness.first_rows(batch.status == physics.Status.AT_REST, flights).tolist():
         follow(tally, kind, seed, row, table, states[row], shots[row], batch)
     return tally
@@ -182,22 +233,49 @@ def follow(
     tally.flight_overlap = max(tally.flight_overlap, deep)
     tally.beyond = max(tally.beyond, out)
     permitted = max(float(soundness.overlap(table, state[None])[0]), soundness.PERMITTED)
+    apart = 0.0
+    if isinstance(table, physics.RealTable):
+        found = everything.look_over(result, pieces.pieces_of(table), STRETCHES)
+        deep, out, apart = max(deep, found.overlap), max(out, found.beyond), found.apart
+        tally.contacts += found.contacts
+        tally.apart = max(tally.apart, apart)
+        tally.flight_overlap, tally.beyond = max(tally.flight_overlap, deep), max(tally.beyond, out)
     faults = {
         "nan": not finite,
         "overlap": deep > permitted,
-        "escape": out > max(float(soundness.beyond(table, state[None])[0]), soundness.PERMITTED),
+        "escape": out > max(float(soundness.beyond(table, state[None])[0]) + soundness.ROUNDING, soundness.PERMITTED),
+        "invented contact": apart > soundness.PERMITTED,
         "batch differs": result.final.positions.tobytes() != batch.positions[row].tobytes(),
     }
-    for fault, found in faults.items():
-        if found:
+    for fault, happened in faults.items():
+        if happened:
             tally.faults[fault] += 1
             tally.failures.append(failure(kind, seed, row, f"{fault} in flight", table, state, shot))
+
+
+def compare(tallies: dict[str, Tally]) -> None:
+    """Play one chunk in four again without filter and broad phase, and count the shots with other bits."""
+    jobs = [
+        (kind, seed, len(hashes))
+        for kind, tally in tallies.items()
+        for seed, hashes in sorted(tally.hashes.items())[::REPLAYED]
+    ]
+    for kind, _, n in jobs:
+        tallies[kind].replayed += n
+    answers = variants.run("benchmarks.unfiltered:look_at_everything", "benchmarks.unfiltered:replayed", jobs)
+    for (kind, seed, n), hashes in zip(jobs, answers, strict=True):
+        other = hashes != tallies[kind].hashes[seed]
+        tallies[kind].faults["other bits"] += int(other.sum())
+        for row in soundness.first_rows(other, SHOWN).tolist():
+            table, states, shots = scene_of(kind, seed, n)
+            fault = "other bits without filter"
+            tallies[kind].failures.append(failure(kind, seed, row, fault, table, states[row], shots[row]))
 
 
 def failure(kind: str, seed: int, row: int, fault: str, table: physics.Table, state: Any, shot: Any) -> Row:
     """A failed shot with all it takes to repeat it."""
     balls = {ball: place for ball, place in enumerate(state.tolist()) if place[0] == place[0]}
-    base = physics.Table.olympiad().to_dict()
+    base = physics.Table.named(table.name).to_dict()
     changes = {name: value for name, value in table.to_dict().items() if value != base[name]}
     scene = f"table.replace(**{changes!r}), TableState.from_positions({balls!r}), Shot(*{shot.tolist()!r})"
     return {"class": kind, "seed": seed, "row": row, "fault": fault, "scene": scene}

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
+from client import notebook
 from client.agent import AgentFactory
 from client.agents.registry import Player, factory_of, titles
 from client.errors import AgentFailed, AgentUnstartable
@@ -37,6 +38,12 @@ class LocalMatch:
     score: tuple[float, float]
     seed: int
 
+    def __repr__(self) -> str:
+        return f"<LocalMatch {notebook.match_line(self)}>"
+
+    def _repr_html_(self) -> str:
+        return notebook.replay_of(self.games, notebook.match_line(self))
+
     @property
     def winner(self) -> str | None:
         """The name of the player with more points; None for a draw."""
@@ -66,7 +73,7 @@ def play(
         games: how many, 1 to 1000; the break alternates.
         seed: repeats racks, first breaker, noise and the choices of shipped agents; drawn unless given.
         noise: level, 0 to 5; 1 is the Olympiad's.
-        table: the Olympiad's unless given.
+        table: any `physics.Table`; the Olympiad's unless given.
         simulations: shots that each agent may simulate in a game with its `simulator`; any number unless given.
         start: where every game begins instead of a break, e.g. `view.to_game()`; the seats are exchanged in
             every second game.

@@ -2,10 +2,13 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
+from client import notebook
 from protocol import BudgetView, ClockView, GameTerms, NoiseView, StrokeView, View
 from protocol.strokes import since_own_last
+from protocol.values import trusted
 from referee.errors import RefereeError
 from referee.game import Action, EndReason, Game, Outcome
 from referee.play.budget import Budgets, GrantedBudget, budgets
@@ -93,6 +96,12 @@ class PlayedGame:
     def _counted(self) -> tuple[int, int] | None:
         """What the record tells of simulated shots: nothing where no budget counts them."""
         return None if self.header.budget is None else self.simulated
+
+    def __repr__(self) -> str:
+        return f"<PlayedGame {notebook.line_of(self)}>"
+
+    def _repr_html_(self) -> str:
+        return notebook.replay_of([self], notebook.line_of(self))
 
     def record(self) -> Iterator[str]:
         """The record, line by line."""
@@ -240,7 +249,7 @@ class _GameInPlay:
     watch: Watch
     timing: Timing | None
     strokes: list[Stroke] = field(default_factory=list)
-    history: list[StrokeView] = field(default_factory=list)
+    told: dict[int, StrokeView] = field(default_factory=dict)
     elapsed: list[int | None] = field(default_factory=list)
     clocks: Clocks | None = None
     chain: Chain = field(default_factory=Chain)
@@ -273,7 +282,6 @@ class _GameInPlay:
         if self.clocks:
             self.clocks = self.clocks.charged(stroke.seat, elapsed)
         number = len(self.strokes)
-        self.history.append(StrokeView.of(stroke, number))
         self.strokes.append(stroke)
         self.elapsed.append(charged)
         self._tell(lambda: stroke_entry(stroke, number, charged))
@@ -330,16 +338,26 @@ class _GameInPlay:
             self.terms,
             game,
             seat=seat,
-            version=len(self.history),
+            version=len(self.strokes),
             clocks=(self._clock(clocks, 0, seat), self._clock(clocks, 1, seat)),
             score=self.score,
-            strokes_since=since_own_last(self.history, seat),
+            strokes_since=partial(self._since_own_last, seat, len(self.strokes)),
         )
+
+    def _since_own_last(self, seat: int, until: int) -> list[StrokeView]:
+        """The strokes that a view shows of the first ``until``; each is put into the wire's form once."""
+        shown = range(until - len(since_own_last(self.strokes[:until], seat)), until)
+        return [self._told(number) for number in shown]
+
+    def _told(self, number: int) -> StrokeView:
+        if number not in self.told:
+            self.told[number] = StrokeView.of(self.strokes[number], number)
+        return self.told[number]
 
     def _clock(self, clocks: Clocks | None, seat: int, turn: int) -> ClockView:
         left = clocks.remaining_ns(seat) / SECOND_NS if clocks else None
         simulations = self.budget[seat].remaining
-        return ClockView(seconds_left=left, running=seat == turn, simulations_left=simulations)
+        return trusted(ClockView, seconds_left=left, running=seat == turn, simulations_left=simulations)
 
 
 def _terms(header: Header) -> GameTerms:

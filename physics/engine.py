@@ -87,11 +87,17 @@ def _load(module: str) -> Any:
     import numba
 
     folder = cache_folder()
-    if folder is not None and not any(folder.iterdir()) and not numba.config.DISABLE_JIT:
-        sys.stderr.write("pooliad: compiling the physics for this processor, once (10 to 60 s) ...\n")
+    if not numba.config.DISABLE_JIT:
+        say_if_compiled_now(folder, module, "the physics" if module == "entries" else "the physics of tables with jaws")
     before = numba.config.CACHE_DIR
     try:
         numba.config.CACHE_DIR = str(folder or "")
         return importlib.import_module(f"physics.kernels.{module}")
     finally:
         numba.config.CACHE_DIR = before
+
+
+def say_if_compiled_now(folder: Path | None, module: str, what: str) -> None:
+    """A line on standard error where loading a module compiles it: nothing of it is in the folder yet."""
+    if folder is None or not any(folder.rglob(f"{module}.*.nbi")):
+        sys.stderr.write(f"pooliad: compiling {what} for this processor, once (10 to 60 s) ...\n")

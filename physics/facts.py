@@ -5,10 +5,12 @@ A batch holds the same fields as a structured array of ``FACTS_DTYPE``.
 """
 
 import dataclasses
+import itertools
 import math
 from typing import Any, Final, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from physics.constants import N_BALLS
 from physics.kernels import layout
@@ -97,12 +99,21 @@ class Facts:
     @classmethod
     def from_record(cls, record: Any) -> Self:
         """Facts from one row of a ``FACTS_DTYPE`` array, e.g. ``batch.facts[i]``."""
-        return cls(*(_plain(value) for value in record.item()))
+        return cls.from_words(np.frombuffer(record.tobytes(), np.int32))
+
+    @classmethod
+    def from_words(cls, words: NDArray[np.int32]) -> Self:
+        """Facts from the ``FACTS_WORDS`` int32 that a kernel wrote."""
+        whole = words[: layout.F_INTEGERS].tolist()
+        duration, x, y = words.view(np.float64)[layout.F_DURATION :].tolist()
+        fields: list[Any] = [whole[part][0] if single else tuple(whole[part]) for part, single in _PARTS]
+        fields += [duration, (x, y)]
+        return cls(*fields)
 
     @property
     def struck_first(self) -> tuple[int, ...]:
         """Balls the cue ball struck first, ascending; empty when it struck none."""
-        return tuple(ball for ball, event in enumerate(self.first_contact) if event != NEVER)
+        return tuple([ball for ball, event in enumerate(self.first_contact) if event != NEVER])
 
     @property
     def pocketed_in_order(self) -> tuple[tuple[int, int, int], ...]:
@@ -111,5 +122,8 @@ class Facts:
         return tuple((ball, self.pocket[ball], event) for event, ball in events)
 
 
-def _plain(value: Any) -> Any:
-    return tuple(value.tolist()) if isinstance(value, np.ndarray) else value
+_ENDS: Final = tuple(itertools.accumulate(layout.INTEGER_FACTS.values()))
+_PARTS: Final = tuple(
+    [(slice(end - size, end), size == 1) for size, end in zip(layout.INTEGER_FACTS.values(), _ENDS, strict=True)]
+)
+"""Where each integer fact stands, and whether it is one number."""

@@ -5,13 +5,13 @@ language. So nothing here leans on a library stream or on the platform's mathema
 integers, ``+ - * /`` on doubles, correctly rounded square roots and ``frexp``, which are the same everywhere.
 """
 
-import hashlib
 import hmac
 import math
+import struct
 from collections.abc import MutableSequence
 from typing import Any, Final
 
-_WORD_BYTES: Final = 8
+_FOUR_WORDS: Final = struct.Struct(">4Q").unpack
 _WORDS: Final = 1 << 64
 _UNIT: Final = 1.0 / (1 << 53)
 """2^-53: the spacing of the uniform numbers."""
@@ -28,27 +28,24 @@ class SeededStream:
         label: what the stream is for.
     """
 
-    __slots__ = ("_block", "_message", "_next_block", "_position", "_prototype")
+    __slots__ = ("_key", "_message", "_next_block", "_words")
 
     def __init__(self, key: bytes, label: str) -> None:
-        self._prototype = hmac.new(key, digestmod=hashlib.sha256)
+        self._key = key
         self._message = label.encode() + b"\0"
         self._next_block = 0
-        self._block = b""
-        self._position = 0
+        self._words: list[int] = []
 
     def __repr__(self) -> str:
         return f"<SeededStream {self._message[:-1].decode()!r}>"
 
     def word(self) -> int:
         """The next 64 bits, as an integer."""
-        if self._position == len(self._block):
-            block = self._prototype.copy()
-            block.update(self._message + self._next_block.to_bytes(8, "big"))
-            self._block, self._position, self._next_block = block.digest(), 0, self._next_block + 1
-        start = self._position
-        self._position = start + _WORD_BYTES
-        return int.from_bytes(self._block[start : self._position], "big")
+        if not self._words:
+            block = hmac.digest(self._key, self._message + self._next_block.to_bytes(8, "big"), "sha256")
+            self._words.extend(reversed(_FOUR_WORDS(block)))
+            self._next_block += 1
+        return self._words.pop()
 
     def uniform(self) -> float:
         """A number in (0, 1): k / 2^53 with k the top 53 bits of a word, drawn again when k = 0."""
@@ -121,8 +118,8 @@ def natural_logarithm(x: float) -> float:
 
 def _horner(coefficients: tuple[float, ...], x: float) -> float:
     """Evaluate a polynomial, highest coefficient first: ((c0 x + c1) x + c2) x + …."""
-    value = coefficients[0]
-    for coefficient in coefficients[1:]:
+    value = 0.0
+    for coefficient in coefficients:
         value = value * x + coefficient
     return value
 

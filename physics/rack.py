@@ -55,12 +55,16 @@ def rack(table: Table, game: str = "eight_ball", *, seed: int | bytes, gap: floa
     order = _arrangement(stream)
     places = _lattice(table, gap)
     if gap > PLACEMENT_TOLERANCE:
-        sigma = min(JITTER, _JITTER_PER_GAP * gap)
-        places = _jittered(places, sigma, 2.0 * table.ball_radius, stream)
+        places = _jittered(places, jitter_of(gap), 2.0 * table.ball_radius, stream)
     positions = np.empty((N_BALLS, 2))
     positions[order] = places
     positions[0] = (0.5 * table.width, table.head_string + table.ball_radius)
     return TableState.from_positions(positions)
+
+
+def jitter_of(gap: float) -> float:
+    """Standard deviation of a racked ball's coordinates for the gap between neighbours, both m."""
+    return min(JITTER, _JITTER_PER_GAP * gap) if gap > PLACEMENT_TOLERANCE else 0.0
 
 
 def _arrangement(stream: SeededStream) -> list[int]:

@@ -13,7 +13,7 @@ from physics.constants import EVENT_LIMIT, N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
 from physics.events import OUT_OF_PLAY
-from physics.facts import FACTS_DTYPE, FACTS_WORDS, Facts
+from physics.facts import FACTS_WORDS, Facts
 from physics.kernels import layout as at
 from physics.kernels.layout import F_EVENTS, N_COUNTERS, SHOT_WIDTH
 from physics.parameters import parameters
@@ -41,7 +41,7 @@ class Result:
         n_events: number of events, the cue strike included.
     """
 
-    __slots__ = ("__dict__", "_facts", "_final", "_start", "_trace", "n_events", "table")
+    __slots__ = ("__dict__", "_facts", "_final", "_read", "_start", "_state", "_trace", "n_events", "table")
 
     def __init__(
         self,
@@ -58,16 +58,20 @@ class Result:
         self._final = final
         self._facts = facts
         self._trace = trace
+        self._state: TableState | None = None
+        self._read: Facts | None = None
 
     @cached_property
     def start(self) -> Snapshot:
         """All balls before the first event: at rest, or as the snapshot that was resumed had them."""
         return Snapshot.from_states(0.0, self._start_states().reshape(N_BALLS, -1))
 
-    @cached_property
+    @property
     def final(self) -> TableState:
         """Where the balls lie afterwards: a legal start for the next shot."""
-        return TableState.trusted(self._final.reshape(N_BALLS, 2))
+        if self._state is None:
+            self._state = TableState.trusted(self._final.reshape(N_BALLS, 2))
+        return self._state
 
     @property
     def duration(self) -> float:
@@ -79,10 +83,12 @@ class Result:
         """How the shot ended."""
         return Status(self.facts.status)
 
-    @cached_property
+    @property
     def facts(self) -> Facts:
         """What rules need to know."""
-        return Facts.from_record(self._facts.view(FACTS_DTYPE)[0, 0])
+        if self._read is None:
+            self._read = Facts.from_words(self._facts[0])
+        return self._read
 
     @cached_property
     def events(self) -> Events:
@@ -252,8 +258,9 @@ def _run(table: Table, states: Floats, stroke: Floats, trace: bool, event_limit:
     if trace and n_events > rows:
         events = np.empty((1, n_events * width))
         entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
-    kept = events.reshape(-1, width)[:n_events].copy() if trace else None  # and not the room that was not needed
-    return Result(table, states, final, facts, kept, n_events)
+    if trace:  # cut where it lies: a copy would cost more than the call
+        events.resize((n_events, width), refcheck=False)
+    return Result(table, states, final, facts, events if trace else None, n_events)
 
 
 def checked_positions(table: Table, state: TableState) -> Floats:

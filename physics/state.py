@@ -89,8 +89,12 @@ class TableState:
     def balls(self) -> tuple[int, ...]:
         """Numbers of the balls on the table, ascending."""
         if self._balls is None:
-            self._balls = tuple(np.flatnonzero(self._positions[:, 0] == self._positions[:, 0]).tolist())
+            self._balls = tuple([ball for ball, (x, _) in enumerate(self._positions.tolist()) if x == x])
         return self._balls
+
+    def by_ball(self) -> dict[int, tuple[float, float]]:
+        """Ball number to (x, y) in metres, for the balls on the table."""
+        return {ball: (x, y) for ball, (x, y) in enumerate(self._positions.tolist()) if x == x}
 
     def position(self, ball: int) -> tuple[float, float] | None:
         """(x, y) in metres, or None when the ball is not on the table."""
@@ -106,9 +110,9 @@ class TableState:
         positions = self._positions + 0.0
         positions[_number(ball, position)] = _point(ball, position)
         positions[ball] += 0.0
-        gap = positions - positions[ball]
-        squared = gap[:, 0] * gap[:, 0] + gap[:, 1] * gap[:, 1]
-        if np.count_nonzero(squared < _LEAST_SQUARED) > 1:  # it is at distance 0 of itself
+        places = positions.tolist()
+        x, y = places.pop(ball)
+        if any((x - a) * (x - a) + (y - b) * (y - b) < _LEAST_SQUARED for a, b in places):
             _refuse_overlap(positions)
         return self.trusted(positions)
 
@@ -120,7 +124,7 @@ class TableState:
 
     def to_dict(self) -> dict[str, list[float]]:
         """Ball number (as text, for JSON) to [x, y], for the balls on the table."""
-        return {str(ball): self._positions[ball].tolist() for ball in self.balls}
+        return {key: place for key, place in zip(_KEYS, self._positions.tolist(), strict=True) if place[0] == place[0]}
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Self:

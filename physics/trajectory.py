@@ -15,6 +15,9 @@ from physics.placement import refuse_misplaced, refuse_overlapping
 from physics.table import Table
 
 Floats = NDArray[np.float64]
+_KIND_VALUES = tuple([kind.value for kind in KINDS])
+_MOTION_VALUES = tuple([motion.name.lower() for motion in Motion])
+"""Kinds and motion states as JSON has them, by number."""
 
 PLACE, VELOCITY, SPIN = slice(at.A_X, at.A_VX), slice(at.A_VX, at.A_WX), slice(at.A_WX, at.A_MOTION)
 """Columns of a ball's state."""
@@ -132,6 +135,37 @@ class Events(Sequence[Event]):
         """
         wanted = KINDS.index(EventKind(kind))
         return [self._event(place) for place in np.flatnonzero(self._rows[:, 1] == wanted).tolist()]
+
+    def to_dicts(self) -> list[dict[str, Any]]:
+        """What ``Event.to_dict`` gives for each, without the ``Event`` objects."""
+        return [self._values(place, row) for place, row in enumerate(self._rows.tolist())]
+
+    def _values(self, place: int, row: list[float]) -> dict[str, Any]:
+        kind, ball, other = int(row[at.T_KIND]), int(row[at.T_BALL]), int(row[at.T_OTHER])
+        states = [self._ball_values(ball, row, at.T_FIRST)]
+        if kind == at.BALL_COLLISION:
+            states.append(self._ball_values(other, row, (at.T_FIRST + len(row)) // 2))
+        return {
+            "index": place,
+            "time": row[at.T_TIME],
+            "kind": _KIND_VALUES[kind],
+            "ball": ball,
+            "other": other,
+            "states": states,
+        }
+
+    def _ball_values(self, ball: int, row: list[float], first: int) -> dict[str, Any]:
+        x, y, vx, vy, wx, wy, wz, motion = row[first : first + at.STATE_WIDTH]
+        values = {
+            "ball": ball,
+            "position": [x + self._offset[0], y + self._offset[1]],
+            "velocity": [vx, vy],
+            "spin": [wx, wy, wz],
+            "motion": _MOTION_VALUES[int(motion)],
+        }
+        if self._flight:
+            values |= {"height": row[first + at.A_Z], "velocity_z": row[first + at.A_VZ]}
+        return values
 
     def to_arrays(self) -> dict[str, NDArray[Any]]:
         """The events as columns of one length, such as ``pandas.DataFrame`` or ``polars.DataFrame`` take.

@@ -5,8 +5,8 @@ and no second file, and two on one page do not disturb each other. ``svg`` and `
 ``png`` needs the extra ``pictures``.
 """
 
-from pictures.picture import described, png, svg
+from pictures.picture import described, pixels, png, svg
 from pictures.replay import Scene, html
 from pictures.theme import THEMES
 
-__all__ = ["THEMES", "Scene", "described", "html", "png", "svg"]
+__all__ = ["THEMES", "Scene", "described", "html", "pixels", "png", "svg"]

@@ -1,7 +1,11 @@
 """A picture: a table, a position on it, or what a shot does."""
 
 from html import escape
+from io import BytesIO
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from physics import Batch, Result, Shot, Table, TableState
 from pictures.cue import cue
@@ -92,6 +96,16 @@ def png(shown: Shown, *, width: int = 1200, **options: Any) -> bytes:
     except ImportError as error:
         raise ImportError("PNG pictures need an extra: pip install 'pooliad[pictures]'") from error
     return bytes(resvg_py.svg_to_bytes(svg_string=text))
+
+
+def pixels(shown: Shown, *, width: int = 1200, **options: Any) -> NDArray[np.uint8]:
+    """A picture as (height, width, 3) red, green, blue, on white; arguments and errors are those of ``png``."""
+    data = png(shown, width=width, **options)
+    from PIL import Image
+
+    picture = Image.open(BytesIO(data)).convert("RGBA")
+    white = Image.new("RGBA", picture.size, "white")
+    return np.asarray(Image.alpha_composite(white, picture).convert("RGB"))
 
 
 def described(shown: Shown) -> str:

@@ -5,8 +5,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from physics.events import Event
-from protocol.values import BallNumber, Integer, Message, Number, PocketNumber, Seat
-from referee.game import EndReason, Outcome, Ruling
+from protocol.values import BallNumber, Integer, Message, Number, PocketNumber, Seat, trusted
+from referee.game import EndReason, Evidence, Outcome, Ruling
 
 
 class OutcomeView(Message):
@@ -45,6 +45,19 @@ class EvidenceView(Message):
     pocket: PocketNumber | None = None
     status: str | None = None
 
+    @classmethod
+    def of(cls, evidence: Evidence) -> "EvidenceView":
+        """The wire's form of a proof."""
+        return trusted(
+            cls,
+            rule=evidence.rule,
+            events=evidence.events,
+            searched=evidence.searched,
+            ball=evidence.ball,
+            pocket=evidence.pocket,
+            status=evidence.status,
+        )
+
 
 class RulingView(Message):
     """The referee's ruling on a stroke or a decision.
@@ -70,11 +83,12 @@ class RulingView(Message):
     @classmethod
     def of(cls, ruling: Ruling) -> "RulingView":
         """The wire's form of a ruling."""
-        return cls(
+        return trusted(
+            cls,
             rules=ruling.rules,
             fouls=ruling.fouls,
             words=ruling.words,
-            evidence=tuple(EvidenceView.model_validate(item.to_dict()) for item in ruling.evidence),
+            evidence=tuple([EvidenceView.of(item) for item in ruling.evidence]),
             made=ruling.made,
             rerack=ruling.rerack,
             turn=ruling.turn,

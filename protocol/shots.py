@@ -10,7 +10,7 @@ from physics.pocket_names import POCKET_NUMBERS
 from physics.shot import Shot
 from physics.table import Table
 from protocol.terms import SIMULATIONS_MAX
-from protocol.values import Integer, Message, Number, ObjectBall, PocketNumber, Point, Request
+from protocol.values import Integer, Message, Number, ObjectBall, PocketNumber, Point, Request, trusted
 from referee.game import Action, Call, Decision
 
 
@@ -44,7 +44,7 @@ class ShotParameters(Request):
     @classmethod
     def of(cls, shot: Shot) -> "ShotParameters":
         """The wire's form of a shot."""
-        return cls(**shot.to_dict())
+        return trusted(cls, **shot.to_dict())
 
 
 def _numbered_pocket(value: Any) -> Any:
@@ -155,7 +155,8 @@ class SubmittedAction(Message):
     @classmethod
     def of(cls, action: Action) -> "SubmittedAction":
         """The wire's form of an action."""
-        return cls(
+        return trusted(
+            cls,
             shot=None if action.shot is None else ShotParameters.of(action.shot),
             call=_from_call(action.call),
             cue_ball=action.cue_ball,
@@ -178,5 +179,5 @@ def _to_call(called: Called) -> Call | Literal["safety"] | None:
 
 def _from_call(call: Call | str | None) -> Called:
     if isinstance(call, Call):
-        return CallRequest(ball=call.ball, pocket=call.pocket)
+        return trusted(CallRequest, ball=call.ball, pocket=call.pocket)
     return None if call is None else "safety"

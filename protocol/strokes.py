@@ -1,14 +1,13 @@
 """Strokes and decisions of the past, as answers, views and histories show them."""
 
 from collections.abc import Sequence
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Self, TypeVar
 
 from pydantic import Field
 
-from physics.status import Status
 from protocol.outcomes import EventView, Pocketed, RulingView
 from protocol.shots import ShotParameters, SubmittedAction
-from protocol.values import Balls, Flag, Integer, Message, Number, Seat
+from protocol.values import Balls, Flag, Integer, Message, Number, Seat, trusted
 from referee.play.stroke import Stroke
 
 
@@ -43,7 +42,7 @@ class StrokeView(Message):
     @classmethod
     def of(cls, stroke: Stroke, index: int) -> Self:
         """The wire's form of the ``index``-th entry of a game's history."""
-        return cls.model_validate(_summary(stroke, index))
+        return trusted(cls, **_summary(stroke, index))
 
 
 class StrokeDetail(StrokeView):
@@ -73,7 +72,10 @@ class StrokeDetail(StrokeView):
         return cls.model_validate(_summary(stroke, index) | details)
 
 
-def since_own_last(strokes: Sequence[StrokeView], seat: int | None) -> tuple[StrokeView, ...]:
+Played = TypeVar("Played", Stroke, StrokeView)
+
+
+def since_own_last(strokes: Sequence[Played], seat: int | None) -> tuple[Played, ...]:
     """The strokes a view shows: from the reader's own last one on; for a spectator (None) the last alone."""
     if seat is None:
         return tuple(strokes[-1:])
@@ -91,10 +93,10 @@ def _summary(stroke: Stroke, index: int) -> dict[str, Any]:
         "seat": stroke.seat,
         "action": SubmittedAction.of(stroke.action),
         "shot": None if stroke.shot is None else ShotParameters.of(stroke.shot),
-        "status": None if result is None else Status(result.status).name.lower(),
+        "status": None if result is None else result.status.name.lower(),
         "duration": None if result is None else result.duration,
-        "pocketed": tuple(Pocketed(ball=ball, pocket=pocket) for ball, pocket, _ in fallen),
+        "pocketed": tuple([trusted(Pocketed, ball=ball, pocket=pocket) for ball, pocket, _ in fallen]),
         "miscue": result is not None and result.facts.miscue == 1,
         "ruling": RulingView.of(stroke.ruling),
-        "balls": stroke.game.state.to_dict(),
+        "balls": stroke.game.state.by_ball(),
     }

@@ -1,17 +1,33 @@
 """Tournaments: their terms, how they stand, and the games in them."""
 
+from collections.abc import Mapping
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import ConfigDict, Field, StringConstraints
+from pydantic import ConfigDict, Field, PlainSerializer, StringConstraints, WrapValidator
+from pydantic_core import PydanticKnownError
 
 from protocol.outcomes import OutcomeView
 from protocol.values import Digest, Flag, Identifier, Integer, Message, Number, Request
+from tournament.spec import Spec
 
 TournamentStatus = Literal["created", "running", "paused", "finished", "aborted"]
 EntrantName = Annotated[str, StringConstraints(min_length=1, max_length=64)]
 PairId = Annotated[str, StringConstraints(pattern=r"^r[0-9]{1,4}-m[0-9]{1,6}-p[0-9]{1,6}$")]
 Reason = Annotated[str, StringConstraints(max_length=500)]
+
+
+def _spec(value: Any, _schema: Any) -> Spec:
+    """As an event file is read: its errors name the field and what is allowed."""
+    if isinstance(value, Spec):
+        return value
+    if not isinstance(value, Mapping):
+        raise PydanticKnownError("dict_type")
+    return Spec.from_dict(value)
+
+
+Terms = Annotated[Spec, WrapValidator(_spec), PlainSerializer(Spec.to_dict)]
+"""The terms of an event, written as in an event file."""
 
 
 class TournamentRequest(Request):
@@ -36,7 +52,7 @@ class TournamentRequest(Request):
         }
     )
 
-    terms: Annotated[dict[str, Any], Field(description="The terms of the event, as in an event file.")]
+    terms: Annotated[Terms, Field(description="The terms of the event, as in an event file.")]
     agents: Annotated[dict[EntrantName, Identifier], Field(default_factory=dict)]
 
 
@@ -148,8 +164,8 @@ class TournamentView(TournamentSummary):
     """An event.
 
     Attributes:
-        terms: as published, with ``foreseeable``; the seed, and levels of noise that the players are not told, when the
-            event is over.
+        terms: as ``tournament.Spec.published`` gives them, with ``foreseeable``; the seed, and levels of noise that the
+            players are not told, when the event is over.
         agents: entrant's name to agent id.
         played: games that were begun, in order. log: what was decided.
     """

@@ -3,8 +3,9 @@
 JSON has one number type; Python's readers also let NaN, text and booleans through. These types do not.
 """
 
+import functools
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, WithJsonSchema
 
@@ -26,6 +27,27 @@ class Request(BaseModel):
     """Base of what clients send: as ``Message``, but a field that is not known is an error."""
 
     model_config = ConfigDict(frozen=True, allow_inf_nan=False, extra="forbid")
+
+
+AnyMessage = TypeVar("AnyMessage", bound=BaseModel)
+
+
+def trusted(kind: type[AnyMessage], **values: Any) -> AnyMessage:
+    """A message of values known to be valid, every field among them: what ``model_construct`` makes, at a tenth."""
+    message = kind.__new__(kind)
+    _set(message, "__dict__", values)
+    _set(message, "__pydantic_fields_set__", set(_names(kind)))
+    _set(message, "__pydantic_extra__", None)
+    _set(message, "__pydantic_private__", None)
+    return message
+
+
+_set = object.__setattr__
+
+
+@functools.cache
+def _names(kind: type[BaseModel]) -> frozenset[str]:
+    return frozenset(kind.model_fields)
 
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]

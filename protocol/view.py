@@ -1,9 +1,9 @@
 """The view: what a player may know when it is their turn, and what a spectator may know at any time."""
 
-from collections.abc import Sequence
-from typing import Annotated, Self
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any, Final, NamedTuple, Self, TypeVar
 
-from pydantic import Field
+from pydantic import BaseModel, Field
 
 from physics.state import TableState
 from physics.table import Table
@@ -24,8 +24,33 @@ from protocol.values import (
     RulesName,
     Seat,
     TableValues,
+    trusted,
 )
 from referee.game import CueBallArea, Decision, Game, Group, Legal, Outcome, Phase, legal
+
+_STATE, _TABLE, _LATE = "_state", "_table", "_late"
+"""Where a view keeps, beside its fields, what was made of its balls and its table, and what makes fields that nobody
+has read yet; models leave such names alone."""
+_IN_MEMORY = BaseModel.__dict__["__dict__"]
+
+Source = TypeVar("Source")
+Made = TypeVar("Made")
+
+
+def fields_of(message: BaseModel) -> dict[str, Any]:
+    """The fields that a message has in memory; of a view, without those that nobody has read yet."""
+    values: dict[str, Any] = _IN_MEMORY.__get__(message)
+    return values
+
+
+def _made(message: Message, name: str, source: Source, make: Callable[[Source], Made]) -> Made:
+    """What ``make`` makes of a field, made once: views are asked for it again and again."""
+    values = fields_of(message)
+    kept = values.get(name)
+    if kept is None or kept[0] is not source:  # a copy of the message may have another field
+        kept = values[name] = source, make(source)
+    made: Made = kept[1]
+    return made
 
 
 class Allowed(Message):
@@ -53,7 +78,17 @@ class Allowed(Message):
     @classmethod
     def of(cls, allowed: Legal) -> Self:
         """The wire's form of what the referee allows."""
-        return cls.model_validate(allowed.to_dict())
+        return trusted(
+            cls,
+            actions=allowed.actions,
+            call_required=allowed.call_required,
+            callable=allowed.callable,
+            pockets=allowed.pockets,
+            safety=allowed.safety,
+            cue_ball=allowed.cue_ball,
+            must_place=allowed.must_place,
+            decisions=allowed.decisions,
+        )
 
 
 class Area(Message):
@@ -75,7 +110,7 @@ class Area(Message):
         """The rectangle of this area on this table."""
         near = contact_distance(table)
         least_y = table.head_string if area is CueBallArea.KITCHEN else near
-        return cls(name=area, x=(near, table.width - near), y=(least_y, table.length - near))
+        return trusted(cls, name=area, x=(near, table.width - near), y=(least_y, table.length - near))
 
 
 class GameTerms(Message):
@@ -109,7 +144,7 @@ class GameTerms(Message):
 
     def table_model(self) -> Table:
         """The table, as the physics takes it."""
-        return Table.from_dict(self.table)
+        return _made(self, _TABLE, self.table, Table.from_dict)
 
 
 class View(GameTerms):
@@ -169,7 +204,7 @@ class View(GameTerms):
         version: int,
         clocks: tuple[ClockView, ClockView],
         score: tuple[float, float],
-        strokes_since: Sequence[StrokeView] = (),
+        strokes_since: Sequence[StrokeView] | Callable[[], Sequence[StrokeView]] = (),
     ) -> Self:
         """The view of ``game`` from ``seat`` (None: a spectator's).
 
@@ -180,39 +215,60 @@ class View(GameTerms):
             version: of the game, for ``If-Match``.
             clocks: by seat.
             score: of the match, by seat.
-            strokes_since: see the class; the last of them, if any, says why it is whose turn.
+            strokes_since: see the class, or what makes them when somebody reads; the last of them, if any, says why
+                it is whose turn.
         """
-        allowed, area = legal(game), game.cue_ball_in_hand
-        # model_construct: ``terms`` is validated already, and its table is dear to validate again
-        return cls.model_construct(
-            **dict(terms),
-            version=version,
-            seat=seat,
-            turn=None if game.is_over else game.turn,
-            why=_why(terms, game, strokes_since),
-            phase=game.phase,
-            breaker=game.breaker,
-            stroke=game.stroke,
-            rack=game.rack,
-            allowed=Allowed.of(allowed),
-            callable_balls=allowed.callable,
-            cue_ball_area=None if area is None else Area.of(area, terms.table_model()),
-            balls={ball: game.state.position(ball) for ball in game.state.balls},
-            groups=game.groups,
-            choice=game.choice,
-            visit_strokes=game.visit_strokes,
-            dry_visits=game.dry_visits,
-            replays=game.replays,
-            clocks=clocks,
-            score=score,
-            strokes_since=tuple(strokes_since),
-            outcome=None if game.outcome is None else OutcomeView.of(game.outcome),
-        )
+        table = terms.table_model()
+        values = {name: value for name, value in fields_of(terms).items() if name not in (_STATE, _TABLE)}
+        values |= {
+            "version": version,
+            "seat": seat,
+            "turn": None if game.phase is Phase.OVER else game.turn,
+            "phase": game.phase,
+            "breaker": game.breaker,
+            "stroke": game.stroke,
+            "rack": game.rack,
+            "groups": game.groups,
+            "choice": game.choice,
+            "visit_strokes": game.visit_strokes,
+            "dry_visits": game.dry_visits,
+            "replays": game.replays,
+            "clocks": clocks,
+            "score": score,
+            _TABLE: (terms.table, table),
+            _LATE: _Late(terms, game, table, strokes_since),
+        }
+        return trusted(cls, **values)
+
+    def __getattr__(self, name: str) -> Any:
+        """A field that nobody has read yet."""
+        values = fields_of(self)
+        late = values.get(_LATE)
+        if late is None or name not in LATE:
+            return super().__getattr__(name)  # type: ignore[misc]  # it has the words
+        value = values[name] = getattr(late, name)()
+        return value
+
+    @property
+    def __dict__(self) -> dict[str, Any]:
+        """Every field: whoever looks here copies, compares or serialises the view, by pydantic's code or another's."""
+        values = fields_of(self)
+        if _LATE in values:
+            whole = {name: getattr(self, name) for name in type(self).model_fields} | {_TABLE: values[_TABLE]}
+            values.clear()
+            values |= whole
+        return values
+
+    @__dict__.setter
+    def __dict__(self, values: dict[str, Any]) -> None:
+        """For those who make a view."""
+        _IN_MEMORY.__set__(self, values)
 
     @property
     def state(self) -> TableState:
         """The balls on the table, as the physics takes them."""
-        return TableState.from_positions(self.balls)
+        late = fields_of(self).get(_LATE)
+        return _made(self, _STATE, self.balls, TableState.from_positions) if late is None else late.game.state
 
     @property
     def my_turn(self) -> bool:
@@ -240,8 +296,45 @@ class View(GameTerms):
         )
 
 
-def _why(terms: GameTerms, game: Game, strokes: Sequence[StrokeView]) -> str:
-    """Say in a sentence why it is whose turn."""
-    if strokes:
-        return strokes[-1].ruling.words
-    return f"{terms.players[game.turn]} {'breaks' if game.phase is Phase.BREAK else 'is to act'}"
+class _Late(NamedTuple):
+    """What makes the fields of a view that cost more than a name: a method for each of `LATE`.
+
+    Attributes:
+        terms, game, table: that the view is of. strokes: see `View.of`.
+    """
+
+    terms: GameTerms
+    game: Game
+    table: Table
+    strokes: Sequence[StrokeView] | Callable[[], Sequence[StrokeView]]
+
+    def why(self) -> str:
+        """Say in a sentence why it is whose turn."""
+        if strokes := self.strokes_since():
+            return strokes[-1].ruling.words
+        game = self.game
+        return f"{self.terms.players[game.turn]} {'breaks' if game.phase is Phase.BREAK else 'is to act'}"
+
+    def allowed(self) -> Allowed:
+        return Allowed.of(legal(self.game))
+
+    def callable_balls(self) -> tuple[int, ...]:
+        return legal(self.game).callable
+
+    def cue_ball_area(self) -> Area | None:
+        area = self.game.cue_ball_in_hand
+        return None if area is None else Area.of(area, self.table)
+
+    def balls(self) -> dict[int, tuple[float, float]]:
+        return self.game.state.by_ball()
+
+    def strokes_since(self) -> tuple[StrokeView, ...]:
+        return tuple(self.strokes() if callable(self.strokes) else self.strokes)
+
+    def outcome(self) -> OutcomeView | None:
+        outcome = self.game.outcome
+        return None if outcome is None else OutcomeView.of(outcome)
+
+
+LATE: Final = frozenset(("why", "allowed", "callable_balls", "cue_ball_area", "balls", "strokes_since", "outcome"))
+"""Fields of a view that are made when somebody reads them."""

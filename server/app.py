@@ -18,12 +18,12 @@ from server.routes import ROUTERS
 from server.security import keys
 from server.services.accounts.house_processes import House
 from server.services.matches.matches import abort_foreign
-from server.services.play.clock.flag import ClockFlag
+from server.services.play.clock.flag import timer
 from server.services.runtime import warmup
 from server.services.runtime.context import Context
 from server.services.runtime.heartbeat import Heartbeat
 from server.services.runtime.relay import Relay
-from server.services.runtime.retention import Retention
+from server.services.runtime.retention import retention
 from server.services.runtime.time import DatabaseTime, TimeSource
 from server.services.tournaments import progress
 from server.services.watch.spectators import Spectators
@@ -101,7 +101,7 @@ def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManag
         context.wakeups.start()
         warmup.start(context)
         parts = (
-            *(Relay(context), app.state.heartbeat, ClockFlag(context), Retention(context)),
+            *(Relay(context), app.state.heartbeat, timer(context), retention(context)),
             *(app.state.spectators, app.state.house),
         )
         async with AsyncExitStack() as stack:

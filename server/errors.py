@@ -27,6 +27,7 @@ from starlette.routing import Match
 
 from physics import PhysicsError
 from protocol import PROBLEM_JSON, Fault, Problem, ProblemCode, shown
+from tournament.errors import TournamentError
 
 log = logging.getLogger("pooliad.server")
 
@@ -236,8 +237,12 @@ class Unavailable(ServerError):
 
 def invalid_field(field: str, value: object, allowed: str) -> Invalid:
     """The error for one field found wrong by hand."""
+    return Invalid([_value_fault(field, value, allowed)])
+
+
+def _value_fault(field: str, value: object, allowed: str) -> Fault:
     detail = f"{field} = {shown(value)!r}: must be {allowed}"
-    return Invalid([Fault(code="value", field=field, value=shown(value), allowed=allowed, detail=detail)])
+    return Fault(code="value", field=field, value=shown(value), allowed=allowed, detail=detail)
 
 
 def invalid_fields(error: ValidationError) -> Invalid:
@@ -249,6 +254,10 @@ def _fault(found: Mapping[str, Any]) -> Fault:
     # a field that the request made up has any name, of any length
     parts = [str(shown(str(part))) for part in found["loc"] if not str(part).startswith("function-")]
     cause = found.get("ctx", {}).get("error")
+    if isinstance(cause, TournamentError):
+        inner = re.sub(r"\[(\d+)\]", r".\1", cause.field)  # as everywhere on the wire
+        place = ".".join([*parts, inner] if inner else parts)
+        return _value_fault(place, cause.value, cause.allowed.removeprefix("must be "))
     if isinstance(cause, PhysicsError):
         # what pydantic looked at may be the whole of a table: the physics knows which parameter it was
         return _physics_fault(cause, parts, found["type"])

@@ -2,7 +2,8 @@
 
 from typing import Annotated, Any, Self
 
-from pydantic import model_serializer, model_validator
+from pydantic import GetJsonSchemaHandler, model_serializer, model_validator
+from pydantic_core import CoreSchema
 
 from referee.play.noise import LEVEL_MAX
 from tournament.errors import InvalidSpec
@@ -38,6 +39,11 @@ class NoisePlan(Value):
         if isinstance(data, int | float) and not isinstance(data, bool):
             return {"levels": (data,)}
         return {"levels": (), **data} if isinstance(data, dict) and "range" in data else data
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """An object, or the short form."""
+        return {"anyOf": [{"type": "number", "minimum": 0, "maximum": LEVEL_MAX}, handler(schema)]}
 
     def __post_init__(self) -> None:
         if self.range is not None and self.range[0] > self.range[1]:

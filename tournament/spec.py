@@ -9,12 +9,13 @@ from dataclasses import replace
 from enum import StrEnum
 from typing import Annotated, Any, Self
 
-from pydantic import PlainValidator, model_validator
+from pydantic import GetJsonSchemaHandler, PlainValidator, model_validator
+from pydantic_core import CoreSchema
 
 from referee.play.clock import LEAST_SECONDS, MOST_SECONDS
 from tournament.errors import InvalidSpec
 from tournament.noise_plan import NoisePlan
-from tournament.presets import expand
+from tournament.presets import PRESETS, expand
 from tournament.sprt_terms import SprtTerms
 from tournament.validation import Name, Value, integer, items, number, one_of, text, value
 
@@ -91,6 +92,11 @@ class Entrant(Value):
     @classmethod
     def _short(cls, data: Any) -> Any:
         return {"name": data} if isinstance(data, str) else data
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """An object, or the short form."""
+        return {"anyOf": [{"type": "string"}, handler(schema)]}
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "agent", self.agent or self.name)
@@ -188,6 +194,14 @@ class Spec(Value):
     seed: Annotated[int | str | None, PlainValidator(_seed)] = None
     sprt: SprtTerms | None = None
     lots: Annotated[str | None, PlainValidator(_lots)] = None
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """With what ``from_dict`` takes beside the fields."""
+        found = handler(schema)
+        properties = handler.resolve_ref_schema(found)["properties"]
+        properties |= {"preset": {"enum": sorted(PRESETS)}, "foreseeable": {"type": "boolean"}}
+        return found
 
     @model_validator(mode="before")
     @classmethod

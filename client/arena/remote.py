@@ -113,7 +113,7 @@ class RemoteRunner:
         if self._terms.spec.lots is not None:  # of an event whose place could not be written down
             self._drawn(replace(self._terms.spec, lots=None))
         agents = {name: self._agent(server, name, hosting) for name, hosting in self._terms.hosting.items()}
-        made = server.create_tournament(TournamentRequest(terms=self._terms.spec.to_dict(), agents=agents))
+        made = server.create_tournament(TournamentRequest(terms=self._terms.spec, agents=agents))
         self._drawn(replace(self._terms.spec, lots=server.tournament_entries(made.id, 0).lots))
         place = RemoteTournament(self._url, made.id, agents)
         values = {"url": place.url, "tournament": place.tournament, "agents": place.agents}

@@ -24,7 +24,7 @@ from referee.play.clock import Timing
 from referee.record import line_digest, read_record
 from referee.record.canonical import canonical, parse
 from tournament import Due, GameResult
-from tournament.from_record import result_of
+from tournament.from_record import Move, result_of, result_of_moves
 
 RESULT = ".result.json"
 """Beside a record: its game's result, with the simulated shots, which no record holds."""
@@ -98,7 +98,9 @@ def _played(
         game = _Game(task, seats, notes, tell)
         played = game.play()
     text = "".join(f"{line}\n" for line in (*game.lines, *played.last_lines(line_digest(game.lines[-1]))))
-    result = result_of(read_record(text.splitlines()), task.due, played.simulated)
+    timed = zip(played.strokes, played.elapsed_ns, strict=True)
+    moves = (Move(stroke.seat, stroke.index is not None, stroke.ruling.fouls, elapsed) for stroke, elapsed in timed)
+    result = result_of_moves(played.outcome, moves, played.after_ns, task.due, played.simulated)
     if notes is not None:
         notes.finish(text, result)
     return result, text

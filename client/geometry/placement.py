@@ -16,8 +16,11 @@ def is_free(table: Table, state: TableState, place: Point, kitchen: bool = False
 
     With `kitchen` the place has to be behind the head string, strictly.
     """
-    places, behind = np.array([[place]], np.float64), np.array([kitchen])
-    return bool(are_free(table, state.positions[None], places, behind)[0, 0])
+    (x, y), least = place, 2.0 * table.ball_radius + CLEARANCE
+    if not table.contains(x, y) or (kitchen and not y > table.head_string):
+        return False
+    others = state.positions.tolist()[1:]  # an absent ball's distance is NaN, and no less than any
+    return not any((a - x) * (a - x) + (b - y) * (b - y) < least * least for a, b in others)
 
 
 def are_free(

@@ -7,8 +7,8 @@ from gymnasium.spaces import Box, Space
 from pettingzoo import AECEnv
 
 from client import notation
-from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe
-from client.learn.episodes import Episode, referee_of
+from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector
+from client.learn.games import OneGame, referee_of
 from physics import Table
 from referee import Game, NoiseModel
 
@@ -61,18 +61,19 @@ class EightBallAEC(AECEnv[str, Vector, Vector | None]):
         """Begin a new game; the seed fixes it and those after it."""
         if seed is not None:
             self._chance = np.random.default_rng(seed)
-        self._course = Episode.begin(self._rules, self._noise, self._chance, self._start)
+        self._games = OneGame(self._rules, self._noise, self._start)
+        self._games.begin(self._chance)
         self.agents = list(SEATS)
         self.rewards = dict.fromkeys(SEATS, 0.0)
         self._cumulative_rewards = dict.fromkeys(SEATS, 0.0)
         self.terminations = dict.fromkeys(SEATS, False)
         self.truncations = dict.fromkeys(SEATS, False)
         self.infos: dict[str, dict[str, Any]] = {seat: {} for seat in SEATS}
-        self.agent_selection = SEATS[self._course.game.turn]
+        self.agent_selection = SEATS[self._games.turn]
 
     def observe(self, agent: str) -> Vector:
         """The game as this seat sees it."""
-        return observe(self._rules.table, self._course.game, SEATS.index(agent))
+        return self._games.observed(SEATS.index(agent))
 
     def step(self, action: Vector | None) -> None:
         """Play an action of the seat in turn."""
@@ -81,15 +82,15 @@ class EightBallAEC(AECEnv[str, Vector, Vector | None]):
             return
         assert action is not None
         self._cumulative_rewards[self.agent_selection] = 0.0
-        self._course.play(act(self._rules.table, self._course.game, action))
-        self.rewards = {seat: self._course.reward(number) for number, seat in enumerate(SEATS)}
-        self.terminations = dict.fromkeys(SEATS, self._course.game.is_over)
-        self.agent_selection = SEATS[self._course.game.turn]
+        self._games.play(action, self._chance)
+        self.rewards = {seat: self._games.reward(number) for number, seat in enumerate(SEATS)}
+        self.terminations = dict.fromkeys(SEATS, self._games.is_over)
+        self.agent_selection = SEATS[self._games.turn]
         self._accumulate_rewards()
 
     def render(self) -> str | None:
         """The position in one line, in mode `ansi`."""
-        return notation.write(self._course.game.state) if self.render_mode == "ansi" else None
+        return notation.write(self._games.game().state) if self.render_mode == "ansi" else None
 
     def close(self) -> None:
         """Nothing is held."""

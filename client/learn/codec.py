@@ -1,5 +1,8 @@
 """What a learner sees and does, as vectors: a game as numbers in [0, 1], an action from numbers in [-1, 1].
 
+On every table alike: places are shares of its width and length, speed is a share of its `v_max`, elevation of what its
+`theta_max` leaves above the least that is free. A ball in the jaws, beyond the noses, is seen at the edge.
+
 Every vector in [-1, 1]^8 is a legal action: elevations count from the least that is free, a place that is taken gives
 way to the nearest free one, calls and decisions are chosen among those that are open.
 """

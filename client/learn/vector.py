@@ -1,7 +1,6 @@
-"""Many single-player games at once: their strokes go through the physics as one batch."""
+"""Many single-player games at once, their whole step compiled."""
 
 from collections.abc import Callable
-from itertools import compress
 from typing import Any
 
 import numpy as np
@@ -10,16 +9,14 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector, act, observe_all, strokes
-from client.learn.episodes import Episode, referee_of, reward
+from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Integers, Vector
+from client.learn.compiled import layout as to
+from client.learn.games import Games, referee_of
 from physics import Table
-from physics.shot import FIELDS
 from referee import Game, NoiseModel
-from referee.play.batch import play_strokes
 
 BatchPolicy = Callable[[Vector], Vector]
 """From observations (m, OBSERVATION_SIZE) to actions (m, ACTION_SIZE)."""
-Flags = NDArray[np.bool_]
 
 
 class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
@@ -49,7 +46,8 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         self.num_envs = num_envs
         self._rules, self._noise, self._threads = referee_of(table), NoiseModel(noise), threads
         self._start = None if start is None else self._rules.begin_from(start)
-        self._opponent = opponent or self._at_random
+        self._opponent = opponent
+        self._all = np.arange(num_envs)
         self.single_observation_space = Box(0.0, 1.0, (OBSERVATION_SIZE,), np.float32)
         self.single_action_space = Box(-1.0, 1.0, (ACTION_SIZE,), np.float32)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
@@ -59,9 +57,8 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         """Begin all games anew; the seed fixes them and those after them."""
         super().reset(seed=seed)
         self._seats = np.zeros(self.num_envs, dtype=np.int64)
-        self._courses: list[Episode] = [self._course() for _ in range(self.num_envs)]
-        self._over: Flags = np.zeros(self.num_envs, dtype=np.bool_)
-        self._begin(range(self.num_envs))
+        self._games = Games(self._rules, self._noise, self.num_envs, self._threads, self._start)
+        self._begin(self._all)
         return self._seen(), self._info()
 
     def step(self, actions: Vector) -> tuple[Vector, NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
@@ -73,60 +70,48 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         asked = np.asarray(actions)
         if asked.shape != (self.num_envs, ACTION_SIZE):
             raise ValueError(f"actions have shape {asked.shape}; it must be ({self.num_envs}, {ACTION_SIZE})")
-        begun = np.flatnonzero(self._over).tolist()
-        going = np.flatnonzero(~self._over).tolist()
-        self._play(going, asked[going])
+        over = self._games.over
+        begun, going = np.flatnonzero(over), np.flatnonzero(~over)
+        if len(going):
+            self._games.play(going, asked[going], self.np_random)
         self._begin(begun)
         self._opponent_plays(going)
-        self._over = np.array([course.game.is_over for course in self._courses])
-        rewards = [reward(course.game, int(seat)) for course, seat in zip(self._courses, self._seats, strict=True)]
-        return self._seen(), np.array(rewards), self._over.copy(), np.zeros(self.num_envs, np.bool_), self._info()
+        rewards = self._games.rewards(self._seats)
+        return self._seen(), rewards, self._games.over, np.zeros(self.num_envs, np.bool_), self._info()
 
-    def _course(self) -> Episode:
-        return Episode.begin(self._rules, self._noise, self.np_random, self._start)
-
-    def _begin(self, rows: "range | list[int]") -> None:
+    def _begin(self, waiting: Integers) -> None:
         """New games, played on to the learner's first turn; one that the opponent ends before it was no game."""
-        waiting = list(rows)
-        while waiting:
-            for row in waiting:
-                self._courses[row], self._seats[row] = self._course(), self.np_random.integers(2)
+        while len(waiting):
+            self._games.begin(waiting, self.np_random)
+            self._seats[waiting] = self.np_random.integers(2, size=len(waiting))
             self._opponent_plays(waiting)
-            waiting = [row for row in waiting if self._courses[row].game.is_over]
+            waiting = waiting[self._games.over[waiting]]
 
-    def _opponent_plays(self, rows: list[int]) -> None:
+    def _opponent_plays(self, rows: Integers) -> None:
         """Until it is nowhere the opponent's turn."""
-        while turns := [row for row in rows if self._is_opponents(row)]:
-            games = [self._courses[row].game for row in turns]
-            seen = observe_all(self._rules.table, games, (1 - self._seats[turns]).tolist())
-            self._play(turns, self._opponent(seen))
+        while True:
+            state = self._games.state[rows]
+            rows = rows[(state[:, to.PHASE] != to.OVER) & (state[:, to.TURN] != self._seats[rows])]
+            if not len(rows):
+                return
+            seen = self._games.observed(rows, 1 - self._seats[rows]) if self._opponent else None
+            self._games.play(rows, self._at_random(len(rows)) if seen is None else self._asked(seen), self.np_random)
 
-    def _is_opponents(self, row: int) -> bool:
-        game = self._courses[row].game
-        return not game.is_over and game.turn != self._seats[row]
+    def _asked(self, seen: Vector) -> Vector:
+        """What a policy answers."""
+        assert self._opponent is not None
+        answer = np.asarray(self._opponent(seen))
+        if answer.shape != (len(seen), ACTION_SIZE):
+            raise ValueError(
+                f"the opponent's actions have shape {answer.shape}; it must be ({len(seen)}, {ACTION_SIZE})"
+            )
+        return answer
 
-    def _play(self, rows: list[int], vectors: Vector) -> None:
-        """One action in each of these games, the strokes as one batch."""
-        courses = [self._courses[row] for row in rows]
-        deciding = [bool(course.game.decisions) for course in courses]
-        for course, vector in compress(zip(courses, vectors, strict=True), deciding):
-            course.play(act(self._rules.table, course.game, vector))
-        striking = np.flatnonzero(~np.array(deciding, np.bool_)).tolist()
-        if not striking:
-            return
-        games = [courses[number].game for number in striking]
-        draws = self.np_random.standard_normal((len(games), len(FIELDS)))
-        asked = strokes(self._rules.table, games, vectors[striking])
-        after = play_strokes(self._rules, asked, self._noise, draws, threads=self._threads)
-        for number, game in zip(striking, after, strict=True):
-            courses[number].follow(game)
-
-    def _at_random(self, observations: Vector) -> Vector:
-        return self.np_random.uniform(-1.0, 1.0, (len(observations), ACTION_SIZE)).astype(np.float32)
+    def _at_random(self, count: int) -> Vector:
+        return self.np_random.uniform(-1.0, 1.0, (count, ACTION_SIZE)).astype(np.float32)
 
     def _seen(self) -> Vector:
-        return observe_all(self._rules.table, [course.game for course in self._courses], self._seats.tolist())
+        return self._games.observed(self._all, self._seats)
 
     def _info(self) -> dict[str, Any]:
-        strokes_played = np.array([course.game.stroke for course in self._courses])
-        return {"seat": self._seats.copy(), "strokes": strokes_played}
+        return {"seat": self._seats.copy(), "strokes": self._games.state[:, to.STROKE].copy()}

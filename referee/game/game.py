@@ -9,6 +9,7 @@ from physics.state import TableState
 from referee.errors import InvalidGame
 from referee.game.action import Decision
 from referee.game.outcome import Outcome
+from referee.game.rule_id import plain_id
 
 
 class Phase(StrEnum):
@@ -105,6 +106,7 @@ class Game:
         data = {name: getattr(self, name) for name in _PLAIN}
         return data | {
             "state": self.state.to_dict(),
+            "choice": None if self.choice is None else plain_id(self.choice),
             "phase": self.phase.value,
             "groups": None if self.groups is None else [group.value for group in self.groups],
             "cue_ball_in_hand": None if self.cue_ball_in_hand is None else self.cue_ball_in_hand.value,
@@ -136,7 +138,7 @@ class Game:
 
 
 _COUNTS = ("stroke", "rack", "visit_strokes", "dry_visits", "replays")
-_PLAIN = ("turn", "breaker", "choice", *_COUNTS)
+_PLAIN = ("turn", "breaker", *_COUNTS)
 _NAMES = {field.name for field in fields(Game)}
 
 _SHAPES: dict[str, type] = {"state": Mapping, "decisions": list}

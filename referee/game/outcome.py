@@ -6,6 +6,7 @@ from enum import StrEnum
 from typing import Any
 
 from referee.errors import InvalidGame
+from referee.game.rule_id import plain_id
 
 
 class EndReason(StrEnum):
@@ -45,7 +46,7 @@ class Outcome:
 
     def to_dict(self) -> dict[str, Any]:
         """``{"winner": 0, "reason": "eight_made", "rule": "R46"}``."""
-        return {"winner": self.winner, "reason": self.reason.value, "rule": self.rule}
+        return {"winner": self.winner, "reason": self.reason.value, "rule": plain_id(self.rule)}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> "Outcome":

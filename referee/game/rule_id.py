@@ -98,3 +98,8 @@ class RuleId(StrEnum):
 
 RULES: Final = MappingProxyType({rule.value: rule.sentence for rule in RuleId})
 """Rule id to sentence."""
+
+
+def plain_id(rule: str) -> str:
+    """A rule's id as plain text: a member of `RuleId` is a special kind of text, which encoders take long over."""
+    return str.__str__(rule)

@@ -1,11 +1,13 @@
 """What the referee answers: refusals before a stroke, a ruling with its evidence after it."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any
 
 from referee.game.game import Game
 from referee.game.legal import Legal, legal
+from referee.game.rule_id import plain_id
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +58,7 @@ class Evidence:
 
     def to_dict(self) -> dict[str, Any]:
         """JSON form; the parts that say nothing are left out."""
-        data: dict[str, Any] = {"rule": self.rule}
+        data: dict[str, Any] = {"rule": plain_id(self.rule)}
         if self.events:
             data["events"] = list(self.events)
         if self.searched is not None:
@@ -74,7 +76,7 @@ class Ruling:
     Attributes:
         rules: ids of the rules that decided it, the deciding ones first.
         fouls: ids of the fouls committed, the worst first; empty for a fair stroke.
-        words: the ruling in a sentence.
+        sentence: the ruling in a sentence, or what makes it when somebody reads ``words``.
         evidence: at least one entry for every rule that rests on something that happened on the table.
         game: the game as it goes on.
         made: the called ball fell in the called pocket on a fair stroke.
@@ -83,11 +85,19 @@ class Ruling:
 
     rules: tuple[str, ...]
     fouls: tuple[str, ...]
-    words: str
+    sentence: str | Callable[[], str] = field(repr=False, compare=False)  # it follows from the rest
     evidence: tuple[Evidence, ...]
     game: Game
     made: bool = False
     rerack: bool = False
+
+    @property
+    def words(self) -> str:
+        """The ruling in a sentence."""
+        if not isinstance(self.sentence, str):
+            object.__setattr__(self, "sentence", self.sentence())
+        assert isinstance(self.sentence, str)
+        return self.sentence
 
     @property
     def turn(self) -> int:
@@ -99,19 +109,22 @@ class Ruling:
         """What that seat may do."""
         return legal(self.game)
 
-    def to_dict(self) -> dict[str, Any]:
-        """JSON form."""
-        return {
-            "rules": list(self.rules),
-            "fouls": list(self.fouls),
+    def to_dict(self, whole: bool = True) -> dict[str, Any]:
+        """JSON form; ``whole``: with what is allowed next, and the game."""
+        values = {
+            "rules": [plain_id(rule) for rule in self.rules],
+            "fouls": [plain_id(rule) for rule in self.fouls],
             "words": self.words,
             "evidence": [evidence.to_dict() for evidence in self.evidence],
             "made": self.made,
             "rerack": self.rerack,
             "turn": self.turn,
-            "allowed": self.allowed.to_dict(),
-            "game": self.game.to_dict(),
         }
+        return values | {"allowed": self.allowed.to_dict(), "game": self.game.to_dict()} if whole else values
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the sentence, not what makes it."""
+        return Ruling, (self.rules, self.fouls, self.words, self.evidence, self.game, self.made, self.rerack)
 
 
 def _plain(value: Any) -> Any:

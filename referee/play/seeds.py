@@ -51,6 +51,7 @@ class GameSeeds:
     racks: bytes = field(repr=False)
     client_seeds: ClientSeeds = NO_CLIENT_SEEDS
     shared_racks: bool = False
+    _noise_seed: bytes | None = field(default=None, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         _check_seed("noise", self.noise)
@@ -59,7 +60,10 @@ class GameSeeds:
     @property
     def noise_seed(self) -> bytes:
         """32 bytes; with a stroke's index they fix that stroke's noise."""
-        return _derive(self.noise, f"pooliad/1 noise {_mixed(self.client_seeds)}")
+        if self._noise_seed is None:  # every stroke asks for it
+            object.__setattr__(self, "_noise_seed", _derive(self.noise, f"pooliad/1 noise {_mixed(self.client_seeds)}"))
+        assert self._noise_seed is not None
+        return self._noise_seed
 
     @property
     def rack_seed(self) -> bytes:
@@ -91,6 +95,7 @@ class MatchSeed:
     secret: bytes = field(repr=False)
     given_racks: bytes | None = field(default=None, repr=False)
     client_seeds: ClientSeeds = NO_CLIENT_SEEDS
+    _links: list[list[bytes]] = field(default_factory=list, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         _check_seed("secret", self.secret)
@@ -129,10 +134,12 @@ class MatchSeed:
         get the same start. The noise is every game's own all the same, else the second game of a pair could be
         played with the first one's noise known.
         """
-        noise, racks = self._ends()
+        if not self._links:
+            self._links[:] = [_chain(end) for end in self._ends()]
+        noise, racks = self._links
         return GameSeeds(
-            noise=hashed(noise, LINKS - 1 - _game_number(number)),
-            racks=hashed(racks, LINKS - 1 - rack_link(number, pairs)),
+            noise=noise[_game_number(number)],
+            racks=racks[rack_link(number, pairs)],
             client_seeds=self.client_seeds,
             shared_racks=self.shared_racks,
         )
@@ -150,6 +157,14 @@ class MatchSeed:
         """The last links of both chains."""
         racks = self.secret if self.given_racks is None else self.given_racks
         return _derive(self.secret, "pooliad/1 noise chain"), _derive(racks, "pooliad/1 rack chain")
+
+
+def _chain(end: bytes) -> list[bytes]:
+    """Every link of a chain by its number, from the last one."""
+    links = [end]
+    for _ in range(LINKS - 1):
+        links.append(hashlib.sha256(links[-1]).digest())
+    return links[::-1]
 
 
 def rack_link(number: int, pairs: bool) -> int:

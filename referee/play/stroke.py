@@ -3,6 +3,7 @@
 Server, local games, search, learning environments and the verification of records all call ``play_stroke``.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -110,8 +111,12 @@ def racked(rules: EightBall, ruling: Ruling, before: Game, seeds: GameSeeds) -> 
 
 def without_negative_zeros(action: Action) -> Action:
     """The same action with 0.0 for -0.0, which canonical JSON cannot tell apart: records must be exact."""
-    if action.shot is None:
+    shot = action.shot
+    if shot is None:
         return action
-    shot = Shot(*(value + 0.0 for value in (getattr(action.shot, name) for name in FIELDS)))
-    cue_ball = None if action.cue_ball is None else (action.cue_ball[0] + 0.0, action.cue_ball[1] + 0.0)
-    return replace(action, shot=shot, cue_ball=cue_ball)
+    values = (shot.v, shot.phi, shot.theta, shot.a, shot.b, *(action.cue_ball or ()))
+    if not any(value == 0.0 and math.copysign(1.0, value) < 0.0 for value in values):
+        return action
+    positive = [value + 0.0 for value in values]
+    cue_ball = None if action.cue_ball is None else (positive[-2], positive[-1])
+    return replace(action, shot=Shot(*positive[: len(FIELDS)]), cue_ball=cue_ball)

@@ -1,10 +1,34 @@
-"""Canonical JSON (RFC 8785): one value, one text, so that a digest means the value."""
+"""Canonical JSON (RFC 8785): one value, one text, so that a digest means the value.
+
+``rfc8785`` defines the bytes; ``orjson`` writes the same ones ten times as fast, but for its numbers, which are put
+into the RFC's form afterwards. Whatever might come out otherwise is left to ``rfc8785`` itself.
+"""
 
 import json
+import marshal
 import math
-from typing import Any, NoReturn
+import re
+from collections.abc import Iterator
+from typing import Any, Final, NoReturn
 
+import orjson
 import rfc8785
+
+_OPTIONS: Final = (
+    orjson.OPT_SORT_KEYS
+    | orjson.OPT_STRICT_INTEGER
+    | orjson.OPT_PASSTHROUGH_DATACLASS
+    | orjson.OPT_PASSTHROUGH_DATETIME
+    | orjson.OPT_PASSTHROUGH_SUBCLASS
+)
+_PLAIN_MARSHAL: Final = 2
+"""The version that writes a double as ``g`` and its 8 bytes, each time it occurs."""
+_INFINITE_OR_NAN: Final = re.compile(rb"g.{6}[\xf0-\xff][\x7f\xff]", re.DOTALL)
+"""A double whose exponent is all ones, or bytes that look like one: looked at closely, nothing is lost."""
+_WHOLE: Final = re.compile(rb"\.0(?=[\],}])")
+_NEGATIVE_ZERO: Final = re.compile(rb"-0(?=[\],}])")
+_EXPONENT: Final = re.compile(rb"e[-+]?[0-9]+(?=[\],}])")
+"""How the numbers end that the RFC writes otherwise. Each begins with a letter, which is looked for fast."""
 
 
 def canonical(value: Any) -> str:
@@ -13,7 +37,37 @@ def canonical(value: Any) -> str:
     Raises:
         rfc8785.CanonicalizationError: NaN, infinity, an integer beyond 2^53, or something that is not JSON.
     """
-    return rfc8785.dumps(value).decode()
+    text = _fast(value)
+    return rfc8785.dumps(value).decode() if text is None else text
+
+
+def _fast(value: Any) -> str | None:
+    """The canonical text, or None where it is not certain that this would be it."""
+    try:
+        if _INFINITE_OR_NAN.search(marshal.dumps(value, _PLAIN_MARSHAL)):  # which orjson would write as null
+            return None
+        text = orjson.dumps([value], option=_OPTIONS)  # in brackets, so that something follows every number
+    except (ValueError, TypeError):  # not only dict, list, tuple, str, int, float, bool and None
+        return None
+    if not text.isascii() or b"\\" in text:  # keys are in order of UTF-16; strings end at the next quotation mark
+        return None
+    strings = b'"'.join(text.split(b'"')[1::2])
+    if _WHOLE.search(strings) or _NEGATIVE_ZERO.search(strings) or _EXPONENT.search(strings):
+        return None  # a string holds what looks like such a number
+    text = _NEGATIVE_ZERO.sub(b"0", _WHOLE.sub(b"", text))
+    return b"".join(_exponents_rewritten(text)).decode()
+
+
+def _exponents_rewritten(text: bytes) -> Iterator[bytes]:
+    """The pieces of a text, brackets off, its numbers with exponents as the RFC writes them."""
+    done = 1
+    for exponent in _EXPONENT.finditer(text):
+        start, end = exponent.span()
+        first = max(text.rfind(before, done - 1, start) for before in (b"[", b",", b":")) + 1
+        yield text[done:first]
+        yield rfc8785.dumps(float(text[first:end]))
+        done = end
+    yield text[done:-1]
 
 
 def plain(value: Any) -> Any:

@@ -134,7 +134,7 @@ def stroke_entry(stroke: Stroke, entry: int, elapsed_ns: int | None = None, *, e
         "elapsed_ns": elapsed_ns,
         "action": stroke.action.to_dict(),
         **_played(stroke, events),
-        "ruling": {key: value for key, value in stroke.ruling.to_dict().items() if key not in ("game", "allowed")},
+        "ruling": stroke.ruling.to_dict(whole=False),
         "game": stroke.game.to_dict(),
     }
 
@@ -199,7 +199,7 @@ def _played(stroke: Stroke, events: bool) -> dict[str, Any]:
     return {
         "before": stroke.before.to_dict(),
         "shot": shot.to_dict(),
-        **({"events": [event.to_dict() for event in result.events]} if events else {}),
+        **({"events": result.events.to_dicts()} if events else {}),
         "status": Status(result.status).name.lower(),
         "duration": result.duration,
         "final": result.final.to_dict(),

@@ -28,6 +28,11 @@ _GROUPS: Final = (Group.SOLIDS, Group.STRIPES)
 Flags = NDArray[np.bool_]
 
 
+def group_number(group: Group | None) -> int:
+    """-1 on an open table, 0 solids, 1 stripes."""
+    return OPEN if group is None else _GROUPS.index(group)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Verdicts:
     """What n strokes came to; each array is (n,).

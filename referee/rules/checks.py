@@ -26,9 +26,8 @@ def refuse_phase(game: Game, action: Action) -> tuple[Refusal, ...]:
         return (Refusal(game.outcome.rule, "action", action.to_dict(), "nothing: the game is over"),)
     if action.decision is Decision.CONCEDE and game.phase is not Phase.RERACK:
         return ()
-    value = action.to_dict()
     if game.phase is Phase.RERACK:
-        return (Refusal(RuleId.R49, "action", value, "nothing before the balls are racked again"),)
+        return (Refusal(RuleId.R49, "action", action.to_dict(), "nothing before the balls are racked again"),)
     if game.phase is Phase.DECISION:
         return _refuse_choice(game, action)
     if action.decision is not None:

@@ -145,15 +145,15 @@ class EightBall:
         if loser not in ((None,) if reason is EndReason.ABORTED else (0, 1)):
             raise InvalidGame("loser", loser, "seat 0 or 1, and None when the game is aborted")
         after = over(game, Outcome(None if loser is None else 1 - loser, reason, RuleId.R48))
-        return Ruling((RuleId.R48,), (), f"{describe_next(after).capitalize()}.", (), after)
+        return Ruling((RuleId.R48,), (), lambda: f"{describe_next(after).capitalize()}.", (), after)
 
     def _decide(self, game: Game, decision: Decision) -> Ruling:
         if decision is Decision.CONCEDE:
             return self.end(game, EndReason.CONCESSION, game.turn)
         after = decide(self.table, game, decision)
-        words = describe_decision(game, decision, after)
         rules = (game.choice or RuleId.R12, *((RuleId.R30, RuleId.R31) if decision is Decision.SPOT_EIGHT else ()))
-        return Ruling(rules, (), words, (), after, rerack=after.phase is Phase.RERACK)
+        rerack = after.phase is Phase.RERACK
+        return Ruling(rules, (), lambda: describe_decision(game, decision, after), (), after, rerack=rerack)
 
     def _rule(self, game: Game, action: Action, facts: Facts, final: TableState) -> Ruling:
         stroke = read_stroke(self.table, game, action, facts, final)
@@ -164,7 +164,7 @@ class EightBall:
         return Ruling(
             rules=rules if after is judgement.game else (RuleId.R49, *rules),
             fouls=tuple(dict.fromkeys(one.rule for one in found)),
-            words=describe_stroke(stroke, found, after),
+            sentence=lambda: describe_stroke(stroke, found, after),
             evidence=judgement.evidence,
             game=after,
             made=judgement.made,

@@ -49,8 +49,10 @@ def no_cushion_after_contact(stroke: StrokeFacts) -> Finding:
     facts = stroke.facts
     if not stroke.struck or stroke.pocketed or facts.pocketed[CUE_BALL] != NEVER:
         return ()
+    if max(facts.cushion_after_contact) != NEVER:
+        return ()
     contact = min(facts.first_contact[ball] for ball in stroke.struck)
-    if any(event != NEVER for event in facts.cushion_after_contact) or max(facts.off_table) > contact:
+    if max(facts.off_table) > contact:
         return ()
     return (Evidence(RuleId.R35, searched=stroke.searched(contact)),)
 
@@ -58,6 +60,8 @@ def no_cushion_after_contact(stroke: StrokeFacts) -> Finding:
 def ball_off_table(stroke: StrokeFacts) -> Finding:
     """R36 (R16 on the break): an object ball leaves the table."""
     off = stroke.facts.off_table
+    if max(off) == NEVER:
+        return ()
     return tuple(Evidence(RuleId.R36, (off[ball],), ball=ball) for ball in range(1, 16) if off[ball] != NEVER)
 
 
@@ -106,7 +110,7 @@ def find_fouls(stroke: StrokeFacts) -> Finding:
     if missed := miscue(stroke):
         return missed
     predicates = _ON_THE_BREAK if stroke.game.phase is Phase.BREAK else BY_SEVERITY
-    return tuple(evidence for predicate in predicates for evidence in predicate(stroke))
+    return tuple([evidence for predicate in predicates for evidence in predicate(stroke)])
 
 
 def worst(found: Finding) -> str | None:

@@ -2,7 +2,7 @@
 
 from math import dist, isfinite
 
-from physics.constants import PLACEMENT_TOLERANCE
+from physics.constants import N_BALLS, PLACEMENT_TOLERANCE
 from physics.table import Table
 from referee.game import CueBallArea, Game, Refusal, RuleId
 from referee.rules.stroke_facts import CUE_BALL
@@ -23,11 +23,8 @@ def in_area(table: Table, area: CueBallArea, y: float) -> bool:
 def overlapped_balls(table: Table, game: Game, place: Point) -> tuple[int, ...]:
     """R40: the balls a cue ball at ``place`` would overlap; touching (within 1e-9 m) counts."""
     clear = 2.0 * table.ball_radius + PLACEMENT_TOLERANCE
-    return tuple(
-        ball
-        for ball in game.state.balls
-        if ball != CUE_BALL and dist(game.state.positions[ball].tolist(), place) <= clear
-    )
+    places = game.state.positions.tolist()  # an absent ball's distance is NaN, and no less than any
+    return tuple([ball for ball in range(CUE_BALL + 1, N_BALLS) if dist(places[ball], place) <= clear])
 
 
 def refuse_placement(table: Table, game: Game, place: Point | None) -> list[Refusal]:

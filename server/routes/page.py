@@ -10,6 +10,9 @@ from typing import Final
 
 from fastapi import APIRouter, FastAPI, Request, Response
 
+from physics import Table
+from physics.table import NAMED
+from protocol import TableDescription
 from referee.game import RULES
 from server.errors import NotFound
 from server.reference import reference
@@ -18,6 +21,7 @@ router = APIRouter(include_in_schema=False)
 
 HOME: Final = "index.html"
 RULES_FILE: Final = "rules.json"
+TABLES_FILE: Final = "tables.json"
 TYPES: Final = {
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
@@ -56,10 +60,12 @@ class File:
 
 @cache
 def page_files() -> dict[str, File]:
-    """All files of `server/web`, by name, and the referee's rules."""
+    """All files of `server/web`, by name, the referee's rules, and the named tables, which even records need."""
     found = [one for one in files("server").joinpath("web").iterdir() if one.is_file()]
     contents = {one.name: one.read_bytes() for one in found}
     contents[RULES_FILE] = json.dumps(dict(RULES)).encode()
+    described = {name: TableDescription.of(Table.named(name)).model_dump(mode="json") for name in NAMED}
+    contents[TABLES_FILE] = json.dumps(described).encode()
     return {name: File.of(name, content) for name, content in contents.items()}
 
 

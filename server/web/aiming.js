@@ -10,6 +10,7 @@ import { Trace } from "./trace.js";
 import { POCKETS, ballName } from "./words.js";
 
 const PATH = "#9bd7ff";
+const MISCUE = "The tip would slip off the cue ball: a miscue.";
 
 export class Aiming {
   /**
@@ -87,6 +88,7 @@ export class Aiming {
   begin(view) {
     this.view = view;
     this.balls = { ...view.balls };
+    this.form.useTable(view.table);
     this.path = null;
     if (this.area && !(this.balls[0] && mayLie(view.table, this.balls, 0, this.balls[0], this.area))) {
       const place = freePlace(view.table, this.balls, 0, this.area);
@@ -162,7 +164,7 @@ export class Aiming {
   previewed(answer, elevation, problem) {
     if (!this.view || !this.legalPlace) return; // asked before the ball was dragged to where it may not lie
     this.settled = true;
-    fill(this.problem, problem);
+    fill(this.problem, problem || (answer?.facts.miscue ? MISCUE : ""));
     if (elevation !== null && this.lowest.input.checked) this.form.raise(elevation);
     this.path = answer && answer.events ? new Trace(this.view.table, this.balls, answer.events, answer.duration) : null;
     this.stage.redraw();

@@ -74,8 +74,8 @@ function aimAt(hands, [x, y]) {
 }
 
 function tap(stage, hands, place) {
-  const mouths = pockets(stage.picture.table);
-  const pocket = mouths.findIndex(({ mouth }) => Math.hypot(mouth[0] - place[0], mouth[1] - place[1]) < POCKET);
+  const at = ({ mouth, hole }) => [mouth, hole].some(([x, y]) => Math.hypot(x - place[0], y - place[1]) < POCKET);
+  const pocket = pockets(stage.picture.table).findIndex(at);
   const ball = nearest(hands.balls(), place);
   if (ball !== null && ball !== 0) hands.tapBall(ball);
   else if (pocket >= 0) hands.tapPocket(pocket);

@@ -8,14 +8,15 @@ const CELL = 0.8 * BALL_RADIUS;
 
 /**
  * A shot as noise could play it.
- * @param {import("./shot_form.js").Shot} shot @param {number} level @returns {import("./shot_form.js").Shot}
+ * @param {import("./shot_form.js").Shot} shot @param {number} level @param {Record<string, any>} table
+ * @returns {import("./shot_form.js").Shot}
  */
-export function noisy(shot, level) {
+export function noisy(shot, level, table) {
   const off = (name) => shot[name] + level * SIGMA[name] * gaussian();
   return {
     a: off("a"), b: off("b"), phi: off("phi"),
-    theta: Math.min(70, Math.max(0, off("theta"))),
-    v: Math.min(10, Math.max(0, off("v"))),
+    theta: Math.min(table.theta_max, Math.max(0, off("theta"))),
+    v: Math.min(table.v_max, Math.max(0, off("v"))),
   };
 }
 

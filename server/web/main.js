@@ -1,6 +1,7 @@
 /** The page: an address after the hash shows a view; a record dropped anywhere is opened. */
 
 import { announce, el, fill } from "./dom.js";
+import { loadTables } from "./tables.js";
 import { AgentView } from "./view_agent.js";
 import { GameView } from "./view_game.js";
 import { LobbyView } from "./view_lobby.js";
@@ -108,4 +109,4 @@ document.getElementById("skip")?.addEventListener("click", (event) => {
   main.focus();
 });
 theme();
-route();
+loadTables().then(route);

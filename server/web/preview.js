@@ -37,7 +37,7 @@ export class Preview {
       const { phi, a, b } = shot;
       const elevation = lowest ? (await post("/v1/min-elevation", { table, balls, phi, a, b })).theta : shot.theta;
       if (elevation === null) return this.show(null, null, "The cue cannot get at the ball from here.");
-      const theta = lowest ? Math.min(70, Math.ceil(elevation * 10) / 10 + 0.5) : elevation;
+      const theta = lowest ? Math.min(table.theta_max, Math.ceil(elevation * 10) / 10 + 0.5) : elevation;
       const answer = await post("/v1/simulate", { table, balls, shot: { ...shot, theta }, trace: true });
       this.show(answer, theta, answer.status === "at_rest" ? "" : answer.reason);
     } catch (error) {

@@ -1,7 +1,14 @@
 /** The table to scale on a canvas, upright or lying, never mirrored. */
 
-/** Width of the frame around the cushion noses, m. */
-export const FRAME = 0.11;
+import { shapeOf } from "./tables.js";
+
+/** Width of the frame around the cushion noses of a table that does not say it, m. */
+const FRAME = 0.11;
+/** What is drawn beyond a rail of known width, m. */
+const EDGE = 0.006;
+/** Of a straight mouth: how far behind it the hole's centre is drawn, and the hole's radius, m. */
+const BEHIND = 0.03;
+const HOLE_RADIUS = 0.058;
 
 export class Projection {
   /**
@@ -11,8 +18,9 @@ export class Projection {
   constructor(table, width, height, lying) {
     this.table = table;
     this.lying = lying;
-    const across = (lying ? table.length : table.width) + 2 * FRAME;
-    const up = (lying ? table.width : table.length) + 2 * FRAME;
+    this.frame = table.rail_width === undefined ? FRAME : table.rail_width + EDGE;
+    const across = (lying ? table.length : table.width) + 2 * this.frame;
+    const up = (lying ? table.width : table.length) + 2 * this.frame;
     this.scale = Math.min(width / across, height / up);
     this.width = across * this.scale;
     this.height = up * this.scale;
@@ -20,16 +28,16 @@ export class Projection {
 
   /** A place on the table in CSS pixels. @param {number} x @param {number} y @returns {[number, number]} */
   place(x, y) {
-    const { table, scale } = this;
-    if (this.lying) return [(FRAME + table.length - y) * scale, (FRAME + table.width - x) * scale];
-    return [(FRAME + x) * scale, (FRAME + table.length - y) * scale];
+    const { table, scale, frame } = this;
+    if (this.lying) return [(frame + table.length - y) * scale, (frame + table.width - x) * scale];
+    return [(frame + x) * scale, (frame + table.length - y) * scale];
   }
 
   /** The place on the table under a pixel. @param {number} px @param {number} py @returns {[number, number]} */
   unplace(px, py) {
-    const { table, scale } = this;
-    if (this.lying) return [FRAME + table.width - py / scale, FRAME + table.length - px / scale];
-    return [px / scale - FRAME, FRAME + table.length - py / scale];
+    const { table, scale, frame } = this;
+    if (this.lying) return [frame + table.width - py / scale, frame + table.length - px / scale];
+    return [px / scale - frame, frame + table.length - py / scale];
   }
 
   /** The direction of the table that shows to the right and the one that shows upwards. */
@@ -39,10 +47,26 @@ export class Projection {
 }
 
 /**
- * The pockets: centre of the mouth, direction outwards, the mouth's two ends.
- * @param {Record<string, any>} table
+ * @typedef {object} PocketPlace
+ * @property {[number, number]} mouth the middle of the mouth's line @property {[number, number][]} ends of this line
+ * @property {[number, number]} hole its middle @property {number} radius of the hole
  */
+
+/** The pockets SW W NW NE E SE. @param {Record<string, any>} table @returns {PocketPlace[]} */
 export function pockets(table) {
+  const shape = shapeOf(table);
+  if (!shape) return straightPockets(table).map((pocket) => ({ ...pocket, hole: behind(pocket), radius: HOLE_RADIUS }));
+  return shape.pockets.map(({ mouth: [one, two], hole_centre, hole_radius }) => ({
+    mouth: [(one[0] + two[0]) / 2, (one[1] + two[1]) / 2], ends: [one, two], hole: hole_centre, radius: hole_radius,
+  }));
+}
+
+/** @returns {[number, number]} */
+function behind({ mouth, outward }) {
+  return [mouth[0] + outward[0] * BEHIND, mouth[1] + outward[1] * BEHIND];
+}
+
+function straightPockets(table) {
   const { width, length } = table;
   const reach = table.corner_mouth / Math.SQRT2;
   const half = table.side_mouth / 2;

@@ -15,7 +15,7 @@ export class ShotForm {
     /** @type {Shot} */
     this.shot = { v: 2, phi: 270, theta: 5, a: 0, b: 0 };
     this.fields = {
-      v: this.field("v", "Cue speed, m/s", 0, 10, 0.05),
+      v: this.field("v", "Cue speed, m/s", 0, 10, 0.05), // until a table says how fast, and how steep
       phi: this.field("phi", "Direction, degrees", 0, 360, 0.05),
       theta: this.field("theta", "Cue raised, degrees", 0, 70, 0.1),
       a: this.field("a", "Side, mm (right is positive)", -REACH, REACH, 0.5),
@@ -66,6 +66,15 @@ export class ShotForm {
     }
     this.write();
     this.changed();
+  }
+
+  /** Take the ranges of a table. @param {{v_max: number, theta_max: number}} table */
+  useTable({ v_max, theta_max }) {
+    for (const [name, most] of Object.entries({ v: v_max, theta: theta_max })) {
+      for (const input of [this.fields[name].slider, this.fields[name].number]) input.max = String(most);
+      this.shot = { ...this.shot, [name]: this.allowed(name, this.shot[name]) };
+    }
+    this.write();
   }
 
   allowed(name, value) {

@@ -22,19 +22,19 @@ export function readNotation(text) {
   return balls;
 }
 
-/** @param {Balls} balls @param {Shot} shot */
-export function asJson(balls, shot) {
-  return JSON.stringify({ table: "olympiad", balls, shot, trace: true });
+/** @param {Balls} balls @param {Shot} shot @param {string} table its name */
+export function asJson(balls, shot, table) {
+  return JSON.stringify({ table, balls, shot, trace: true });
 }
 
-/** @param {Balls} balls @param {Shot} shot */
-export function asPython(balls, shot) {
+/** @param {Balls} balls @param {Shot} shot @param {string} table its name */
+export function asPython(balls, shot, table) {
   const places = Object.entries(balls).map(([ball, [x, y]]) => `${ball}: (${x}, ${y})`).join(", ");
   const { v, phi, theta, a, b } = shot;
   return [
     "import physics",
     "",
-    "table = physics.Table.olympiad()",
+    `table = physics.Table.${table}()`,
     `state = physics.TableState.from_positions({${places}})`,
     `shot = physics.Shot(v=${v}, phi=${phi}, theta=${theta}, a=${a}, b=${b})`,
     "result = physics.simulate(table, state, shot)",
@@ -42,11 +42,11 @@ export function asPython(balls, shot) {
   ].join("\n");
 }
 
-/** @param {Balls} balls @param {Shot} shot @param {string} origin */
-export function asCurl(balls, shot, origin) {
+/** @param {Balls} balls @param {Shot} shot @param {string} table its name @param {string} origin */
+export function asCurl(balls, shot, table, origin) {
   return [
     `curl -sS --fail-with-body -X POST "${origin}/v1/simulate" \\`,
     '  -H "Authorization: Bearer $TOKEN" -H "Content-Type: application/json" \\',
-    `  -d '${asJson(balls, shot)}'`,
+    `  -d '${asJson(balls, shot, table)}'`,
   ].join("\n");
 }

@@ -5,6 +5,7 @@ import { BALL_RADIUS, isOnTable } from "./motion.js";
 import { Orientations } from "./orientation.js";
 import { Playback, reducedMotion } from "./playback.js";
 import { TablePicture } from "./table_picture.js";
+import { contactDistance } from "./tables.js";
 import { Trace, traceOf } from "./trace.js";
 import { describeEvent } from "./words.js";
 
@@ -66,7 +67,7 @@ export class Stage {
 
   /** @param {Record<string, any>} table */
   useTable(table) {
-    this.picture = new TablePicture(this.canvas, table);
+    this.picture = new TablePicture(this.canvas, table, { changed: () => this.redraw() });
     this.fit();
   }
 
@@ -211,8 +212,7 @@ export class Stage {
 
   /** From a ball in a direction to the cushion line. @param {[number, number]} from @param {number} phi deg */
   ray(from, phi) {
-    const { width, length } = /** @type {TablePicture} */ (this.picture).table;
-    return [from, alongRay(from, phi, width, length)];
+    return [from, alongRay(from, phi, /** @type {TablePicture} */ (this.picture).table)];
   }
 
   /** Stop everything. */
@@ -223,12 +223,14 @@ export class Stage {
 }
 
 /** Where a ray from a ball reaches the lines of the cushions. */
-export function alongRay([x, y], phi, width, length) {
+export function alongRay([x, y], phi, table) {
+  const { width, length } = table;
+  const near = contactDistance(table, BALL_RADIUS);
   const angle = (phi * Math.PI) / 180;
   const [dx, dy] = [Math.cos(angle), Math.sin(angle)];
   const room = [
-    dx > 0 ? (width - BALL_RADIUS - x) / dx : dx < 0 ? (BALL_RADIUS - x) / dx : Infinity,
-    dy > 0 ? (length - BALL_RADIUS - y) / dy : dy < 0 ? (BALL_RADIUS - y) / dy : Infinity,
+    dx > 0 ? (width - near - x) / dx : dx < 0 ? (near - x) / dx : Infinity,
+    dy > 0 ? (length - near - y) / dy : dy < 0 ? (near - y) / dy : Infinity,
   ];
   const reach = Math.max(0, Math.min(...room));
   return /** @type {[number, number]} */ ([x + reach * dx, y + reach * dy]);

@@ -20,7 +20,7 @@ export class StrokeList {
       const said = entry.ruling.fouls.length ? "foul" : entry.ruling.made ? "made" : "";
       const button = el("button", { type: "button", class: "row", onclick: () => this.choose(place) },
         el("span", { class: "count" }, place), " ", el("span", {}, el("span", { class: "who" }, model.players[entry.seat]), " ",
-          describeAction(entry)), " ", said && el("span", { class: `tag ${said}` }, said));
+          describeAction(entry)), " ", entry.miscue && el("span", { class: "tag" }, "miscue"), " ", said && el("span", { class: `tag ${said}` }, said));
       this.rows.push(button);
       this.list.append(el("li", {}, button));
     }

@@ -35,6 +35,7 @@ export class StrokeStory {
   shotRows(entry, players) {
     const rows = [["player", players[entry.seat]], ["called", describeAction(entry)]];
     if (entry.shot) rows.push(["meant", describeShot(entry.action.shot)], ["played", describeShot(entry.shot)]);
+    if (entry.miscue) rows.push(["miscue", "the tip slipped off the cue ball"]);
     return rows.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, value)]);
   }
 

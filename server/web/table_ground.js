@@ -1,25 +1,19 @@
 /** The table without its balls, drawn once for a size: frame, sights, cushions, cloth, pockets, string and spot. */
 
-import { FRAME, pockets } from "./projection.js";
+import { CUSHION, SHADE, SHADE_WIDTH, box, disc, drawHole, polygon } from "./brushes.js";
+import { drawBedWithJaws } from "./jaw_ground.js";
+import { pockets } from "./projection.js";
+import { shapeOf } from "./tables.js";
 
 /** @typedef {import("./projection.js").Projection} Projection */
 
 const CLOTH = { lit: "#257a5f", plain: "#1d6b52", dim: "#155440" };
-const CUSHION = { top: "#1a5f49", nose: "#0f4434" };
 const WOOD = ["#6b4128", "#54311d", "#3d2315"];
 const SIGHT = "#e8dcc0";
-const LEATHER = "#21150e";
-const HOLE = ["#000000", "#17181a"];
 const MARK = "rgb(255 255 255 / 38%)";
-const SHADE = "rgb(0 0 0 / 22%)";
-/** Widths of a cushion and of the shade it throws, m; where the sights are, behind the noses. */
+/** Width of a cushion, m; where the sights are, behind the noses. */
 const CUSHION_WIDTH = 0.045;
-const SHADE_WIDTH = 0.014;
 const SIGHTS = 0.078;
-/** How far behind its mouth a pocket's centre lies, its radius, and that of the leather around it, m. */
-const BEHIND = 0.03;
-export const HOLE_RADIUS = 0.058;
-const RIM_RADIUS = 0.069;
 /** Pixels a metre below which details are left out. */
 const DETAILED = 150;
 
@@ -34,23 +28,28 @@ export function drawTable(ground, { width, height }, projection, density) {
   const context = /** @type {CanvasRenderingContext2D} */ (ground.getContext("2d"));
   context.setTransform(density, 0, 0, density, 0, 0);
   const around = pockets(projection.table);
+  const shape = shapeOf(projection.table);
   drawFrame(context, projection);
-  drawCushions(context, projection);
-  for (const pocket of around) drawHole(context, projection, pocket);
-  drawCloth(context, projection, around);
+  if (shape) {
+    drawBedWithJaws(context, projection, shape, around, clothColour(context, projection));
+  } else {
+    drawCushions(context, projection);
+    for (const pocket of around) drawHole(context, projection, pocket);
+    drawCloth(context, projection, around);
+  }
   drawMarks(context, projection);
 }
 
 function drawFrame(context, projection) {
-  const { width, height, scale, table } = projection;
+  const { width, height, scale, table, frame } = projection;
   const wood = context.createLinearGradient(0, 0, 0, height);
   WOOD.forEach((colour, place) => wood.addColorStop(place / (WOOD.length - 1), colour));
   context.fillStyle = wood;
-  roundedRectangle(context, 0, 0, width, height, FRAME * 0.5 * scale);
+  roundedRectangle(context, 0, 0, width, height, frame * 0.5 * scale);
   context.strokeStyle = "rgb(255 255 255 / 14%)";
   context.lineWidth = 1;
   context.beginPath();
-  context.roundRect(1, 1, width - 2, height - 2, FRAME * 0.48 * scale);
+  context.roundRect(1, 1, width - 2, height - 2, frame * 0.48 * scale);
   context.stroke();
   if (scale < DETAILED) return;
   context.fillStyle = SIGHT;
@@ -58,9 +57,10 @@ function drawFrame(context, projection) {
 }
 
 /** The marks on the frame: quarters of the width, eighths of the length, none at a pocket. */
-function sights({ width, length }) {
-  const ends = [1, 2, 3].flatMap((part) => [-SIGHTS, length + SIGHTS].map((y) => [(part * width) / 4, y]));
-  const sides = [1, 2, 3, 5, 6, 7].flatMap((part) => [-SIGHTS, width + SIGHTS].map((x) => [x, (part * length) / 8]));
+function sights({ width, length, cushion_width, rail_width }) {
+  const behind = rail_width === undefined ? SIGHTS : (cushion_width + rail_width) / 2;
+  const ends = [1, 2, 3].flatMap((part) => [-behind, length + behind].map((y) => [(part * width) / 4, y]));
+  const sides = [1, 2, 3, 5, 6, 7].flatMap((part) => [-behind, width + behind].map((x) => [x, (part * length) / 8]));
   return [...ends, ...sides];
 }
 
@@ -72,15 +72,21 @@ function drawCushions(context, projection) {
   box(context, projection, [-SHADE_WIDTH, -SHADE_WIDTH], [width + SHADE_WIDTH, length + SHADE_WIDTH]);
 }
 
-/** The cloth covers what of the holes is in front of the mouths. */
-function drawCloth(context, projection, [southWest, , northWest, northEast, , southEast]) {
+/** Lighter in the middle. @returns {CanvasGradient} */
+function clothColour(context, projection) {
   const { width, length } = projection.table;
   const [px, py] = projection.place(width / 2, length / 2);
   const cloth = context.createRadialGradient(px, py, 0, px, py, Math.max(projection.width, projection.height) * 0.6);
   cloth.addColorStop(0, CLOTH.lit);
   cloth.addColorStop(0.55, CLOTH.plain);
   cloth.addColorStop(1, CLOTH.dim);
-  context.fillStyle = cloth;
+  return cloth;
+}
+
+/** The cloth covers what of the holes is in front of the mouths. */
+function drawCloth(context, projection, [southWest, , northWest, northEast, , southEast]) {
+  const { width, length } = projection.table;
+  context.fillStyle = clothColour(context, projection);
   const outline = [[southWest, 1], [northWest, 1], [northWest, 0], [northEast, 0], [northEast, 1], [southEast, 1], [southEast, 0], [southWest, 0]];
   polygon(context, projection, outline.map(([pocket, end]) => pocket.ends[end]));
   context.save();
@@ -89,21 +95,6 @@ function drawCloth(context, projection, [southWest, , northWest, northEast, , so
   box(context, projection, [0, 0], [SHADE_WIDTH, length]);
   box(context, projection, [0, length - SHADE_WIDTH], [width, length]);
   context.restore();
-}
-
-function drawHole(context, projection, pocket) {
-  const centre = holeOf(projection, pocket);
-  context.fillStyle = LEATHER;
-  disc(context, ...centre, RIM_RADIUS * projection.scale);
-  const dark = context.createRadialGradient(...centre, 0, ...centre, HOLE_RADIUS * projection.scale);
-  HOLE.forEach((colour, place) => dark.addColorStop(place, colour));
-  context.fillStyle = dark;
-  disc(context, ...centre, HOLE_RADIUS * projection.scale);
-}
-
-/** The middle of a pocket's hole, CSS pixels. @param {Projection} projection @returns {[number, number]} */
-export function holeOf(projection, { mouth, outward }) {
-  return projection.place(mouth[0] + outward[0] * BEHIND, mouth[1] + outward[1] * BEHIND);
 }
 
 function drawMarks(context, projection) {
@@ -116,24 +107,6 @@ function drawMarks(context, projection) {
   context.stroke();
   context.fillStyle = MARK;
   disc(context, ...projection.place(width / 2, length / 4), 2);
-}
-
-export function disc(context, px, py, radius) {
-  context.beginPath();
-  context.arc(px, py, radius, 0, 2 * Math.PI);
-  context.fill();
-}
-
-/** A rectangle of the table between two corners. @param {[number, number]} low @param {[number, number]} high */
-export function box(context, projection, [x0, y0], [x1, y1]) {
-  polygon(context, projection, [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]);
-}
-
-function polygon(context, projection, points) {
-  context.beginPath();
-  for (const [x, y] of points) context.lineTo(...projection.place(x, y));
-  context.closePath();
-  context.fill();
 }
 
 function roundedRectangle(context, x, y, width, height, radius) {

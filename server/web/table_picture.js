@@ -1,10 +1,12 @@
 /** Drawing: the table with its pockets, balls, a cue, lines. A canvas shows it; what it shows is handed in each time. */
 
 import { BallPictures, cssColour, isStriped } from "./ball_picture.js";
+import { box, disc } from "./brushes.js";
 import { BALL_RADIUS } from "./motion.js";
 import { UPRIGHT } from "./orientation.js";
 import { Projection, pockets } from "./projection.js";
-import { HOLE_RADIUS, box, disc, drawTable, holeOf } from "./table_ground.js";
+import { drawTable } from "./table_ground.js";
+import { askShape, shapeOf } from "./tables.js";
 
 /** @typedef {import("./orientation.js").Quaternion} Quaternion */
 /**
@@ -36,9 +38,10 @@ const LEAST_DISC = 3.2;
 export class TablePicture {
   /**
    * @param {HTMLCanvasElement} canvas @param {Record<string, any>} table
-   * @param {{plain?: boolean, lying?: boolean}} [options] plain: discs instead of turned balls, for small pictures
+   * @param {{plain?: boolean, lying?: boolean, changed?: () => void}} [options] plain: discs instead of turned balls,
+   *   for small pictures; changed: called when the table is to be drawn again, because its shape has become known
    */
-  constructor(canvas, table, { plain = false, lying = false } = {}) {
+  constructor(canvas, table, { plain = false, lying = false, changed = () => {} } = {}) {
     this.canvas = canvas;
     this.context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
     this.table = table;
@@ -48,6 +51,13 @@ export class TablePicture {
     this.ground = document.createElement("canvas");
     this.projection = new Projection(table, 1, 1, lying);
     this.density = 1;
+    if (!shapeOf(table)) askShape(table).then((shape) => shape && this.reshape(changed));
+  }
+
+  /** The shape is known now. */
+  reshape(changed) {
+    if (this.canvas.width > 1) drawTable(this.ground, this.canvas, this.projection, this.density);
+    changed();
   }
 
   /** Fit into so many CSS pixels. @param {number} width @param {number} height */
@@ -87,12 +97,12 @@ export class TablePicture {
   }
 
   drawCalledPocket(number) {
-    const { mouth, outward } = pockets(this.table)[number];
+    const { hole, radius } = pockets(this.table)[number];
     const { context, projection } = this;
     context.strokeStyle = CALL;
     context.lineWidth = 3;
     context.beginPath();
-    context.arc(...holeOf(projection, { mouth, outward }), HOLE_RADIUS * projection.scale, 0, 2 * Math.PI);
+    context.arc(...projection.place(...hole), radius * projection.scale, 0, 2 * Math.PI);
     context.stroke();
   }
 

@@ -24,6 +24,8 @@ export class Thumbnail {
     /** @type {import("./trace.js").Trace | null} */
     this.trace = null;
     this.began = 0;
+    /** @type {import("./trace.js").Balls} */
+    this.balls = {};
     this.visible = true;
   }
 
@@ -31,7 +33,7 @@ export class Thumbnail {
   take(kind, data) {
     if (kind === "game") {
       this.model = GameModel.ofEvent(data);
-      this.picture = new TablePicture(this.canvas, this.model.terms.table, { plain: true, lying: true });
+      this.picture = new TablePicture(this.canvas, this.model.terms.table, { plain: true, lying: true, changed: () => this.redraw() });
       this.picture.fit(WIDTH, WIDTH);
       fill(this.names, this.model.players.join(" – "));
       this.rest(this.model.terms.balls);
@@ -52,8 +54,14 @@ export class Thumbnail {
     if (!this.trace) this.rest(this.after);
   }
 
+  /** The shape of the table has become known. */
+  redraw() {
+    if (!this.trace) this.rest(this.balls);
+  }
+
   rest(balls) {
     this.trace = null;
+    this.balls = balls;
     const places = Object.entries(balls).map(([ball, position]) => [Number(ball), { position }]);
     this.picture?.draw({ balls: new Map(/** @type {any} */ (places)) });
   }

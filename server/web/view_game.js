@@ -10,6 +10,7 @@ import { Scoreboard } from "./scoreboard.js";
 import { Stage } from "./stage.js";
 import { StrokeList } from "./stroke_list.js";
 import { StrokeStory } from "./stroke_story.js";
+import { describeTable } from "./tables.js";
 import { describeNoise } from "./words.js";
 
 /** Strokes a live picture may lag behind before it jumps to the newest. */
@@ -99,7 +100,7 @@ export class GameView {
     this.stage.rest(balls);
     const fromServer = games !== null;
     fill(this.terms, facts(`Game ${number + 1}${fromServer ? ` of ${games}` : ""}`,
-      fromServer && match && el("a", { href: `#/matches/${match}` }, "the match"), describeNoise(noise), this.mark, this.links));
+      fromServer && match && el("a", { href: `#/matches/${match}` }, "the match"), describeTable(table), describeNoise(noise), this.mark, this.links));
     if (fromServer && match) this.showMark(match);
     this.board.show(this.model, this.shownState());
   }

@@ -11,20 +11,17 @@ import { ShotForm } from "./shot_form.js";
 import { signInPanel } from "./sign_in.js";
 import { asCurl, asJson, asPython, notation, readNotation } from "./snippets.js";
 import { Stage, cueOf } from "./stage.js";
+import { namedTable, tableNames, tableTitle } from "./tables.js";
 import { Trace } from "./trace.js";
 import { POCKETS, ballName, describeEvent } from "./words.js";
 
 const VARIANTS = 200;
 const START = { 0: [0.5, 1.7], 3: [0.4, 0.6], 8: [0.7, 0.9] };
-const TABLE = {
-  name: "olympiad", width: 1.116, length: 2.236, corner_mouth: 0.11, side_mouth: 0.12,
-  mu_slide: 0.2, mu_roll: 0.015, mu_spin: 0.044, collisions: "consistent",
-};
 const WRITERS = {
   Notation: (balls) => notation(balls),
   Python: asPython,
   JSON: asJson,
-  curl: (balls, shot) => asCurl(balls, shot, location.origin),
+  curl: (balls, shot, table) => asCurl(balls, shot, table, location.origin),
 };
 
 export class LabView {
@@ -64,13 +61,29 @@ export class LabView {
           el("div", { class: "controls" },
             el("button", { type: "button", class: "first", onclick: () => this.play() }, "Play the shot"),
             el("button", { type: "button", onclick: () => this.changed() }, "Back to the position"))),
-        el("div", { class: "side-column" }, this.problem, this.outcome, this.ballPart(), this.form.element,
+        el("div", { class: "side-column" }, this.tablePart(), this.problem, this.outcome, this.ballPart(), this.form.element,
           el("label", { class: "check" }, this.lowest, "cue as low as it can be"), this.spreadPart(), this.textPart(),
           el("details", {}, el("summary", {}, "Events"), this.events))));
-    this.stage.useTable(TABLE);
+    this.useTable(tableNames()[0]);
     this.stage.decorate = (scene) => this.decorate(scene);
     handle(this.stage, this.hands());
     this.changed();
+  }
+
+  /** @param {string} name */
+  useTable(name) {
+    this.table = namedTable(name);
+    this.stage.useTable(this.table);
+    this.form.useTable(this.table);
+    const lying = Object.entries(this.balls).every(([ball, place]) => mayLie(this.table, this.balls, Number(ball), place));
+    if (!lying) this.balls = structuredClone(START);
+  }
+
+  tablePart() {
+    const choice = /** @type {HTMLSelectElement} */ (el("select", {
+      onchange: () => { this.useTable(choice.value); this.changed(); },
+    }, tableNames().map((name) => el("option", { value: name }, tableTitle(name)))));
+    return el("p", { class: "one-line" }, labelled("Kind of table", choice));
   }
 
   ballPart() {
@@ -123,7 +136,7 @@ export class LabView {
 
   /** @param {number} ball @param {[number, number]} place */
   put(ball, place) {
-    if (!mayLie(TABLE, this.balls, ball, place)) return;
+    if (!mayLie(this.table, this.balls, ball, place)) return;
     this.balls = { ...this.balls, [ball]: place };
     this.which.value = String(ball);
     this.changed();
@@ -138,8 +151,8 @@ export class LabView {
 
   add() {
     const ball = Number(this.which.value);
-    for (let y = TABLE.length / 2; y > 0.1; y -= 0.07) {
-      for (let x = 0.1; x < TABLE.width; x += 0.07) if (mayLie(TABLE, this.balls, ball, [x, y])) return this.put(ball, [x, y]);
+    for (let y = this.table.length / 2; y > 0.1; y -= 0.07) {
+      for (let x = 0.1; x < this.table.width; x += 0.07) if (mayLie(this.table, this.balls, ball, [x, y])) return this.put(ball, [x, y]);
     }
   }
 
@@ -155,7 +168,7 @@ export class LabView {
     this.spreading.withdraw();
     for (const said of [this.problem, this.fallen, this.unread]) fill(said);
     this.stage.rest(this.balls);
-    this.preview.ask(TABLE, this.balls, this.form.shot, this.lowest.checked);
+    this.preview.ask(this.table, this.balls, this.form.shot, this.lowest.checked);
     this.writeText();
   }
 
@@ -163,8 +176,9 @@ export class LabView {
     fill(this.problem, problem);
     if (elevation !== null && this.lowest.checked) this.form.raise(elevation);
     this.answer = answer;
-    this.paths = answer?.events ? new Trace(TABLE, this.balls, answer.events, answer.duration) : null;
+    this.paths = answer?.events ? new Trace(this.table, this.balls, answer.events, answer.duration) : null;
     const fallen = answer?.events?.filter((event) => event.kind === "pocket_collision").map(describeEvent) ?? [];
+    if (answer?.facts.miscue) fallen.unshift("miscue: the tip slips off the cue ball");
     fill(this.outcome, answer ? [`${answer.n_events} events in ${answer.duration.toFixed(2)} s`, ...fallen].join("; ") : "");
     fill(this.events, (answer?.events ?? []).slice(0, 400).map((event) => el("li", { value: event.index }, `${event.time.toFixed(4)} s  ${describeEvent(event)}`)));
     this.stage.redraw();
@@ -190,10 +204,10 @@ export class LabView {
   }
 
   async spread() {
-    const shots = Array.from({ length: VARIANTS }, () => noisy(this.form.shot, Number(this.level.value) || 0));
+    const shots = Array.from({ length: VARIANTS }, () => noisy(this.form.shot, Number(this.level.value) || 0, this.table));
     const signal = this.spreading.ask();
     try {
-      const { results } = await call("POST", "/v1/simulate/batch", { body: { table: "olympiad", balls: this.balls, shots }, signal });
+      const { results } = await call("POST", "/v1/simulate/batch", { body: { table: this.table.name, balls: this.balls, shots }, signal });
       this.rows = results;
       this.drawHeat();
       fill(this.fallen, this.fallenText(results));
@@ -225,7 +239,7 @@ export class LabView {
   /** Write the position and the shot over whatever stands there. */
   writeText() {
     this.typed = false;
-    this.text.value = WRITERS[this.format.value](this.balls, this.form.shot);
+    this.text.value = WRITERS[this.format.value](this.balls, this.form.shot, this.table.name);
   }
 
   async copy() {

@@ -5,6 +5,7 @@ import { Aiming } from "./aiming.js";
 import { announce, el, fill, labelled } from "./dom.js";
 import { Latest } from "./latest.js";
 import { signInPanel } from "./sign_in.js";
+import { describeTable, tableNames, tableTitle } from "./tables.js";
 import { GameView } from "./view_game.js";
 
 const AGAIN = 2000;
@@ -51,13 +52,14 @@ export class PlayView {
     this.problem = el("p", { class: "refusal", role: "alert" });
     this.noise = /** @type {HTMLSelectElement} */ (el("select", {},
       [["0", "none"], ["0.5", "half"], ["1", "as in tournaments"]].map(([value, name]) => el("option", { value, selected: value === "0.5" }, name))));
+    this.table = /** @type {HTMLSelectElement} */ (el("select", {}, tableNames().map((one) => el("option", { value: one }, tableTitle(one)))));
     const name = /** @type {HTMLInputElement} */ (el("input", { maxlength: 64, required: true }));
     const bots = el("div", { class: "choices" }, "Looking …");
     const challenges = el("div", { class: "choices" });
     fill(this.top, el("h1", {}, "Play"),
       el("p", {}, "You are ", el("strong", {}, me.name), ". Games played here are unrated. ",
         el("button", { type: "button", onclick: () => this.leave() }, "Sign out")),
-      this.problem, el("p", { class: "one-line" }, labelled("Noise of the strokes", this.noise)),
+      this.problem, el("p", { class: "one-line" }, labelled("Kind of table", this.table), labelled("Noise of the strokes", this.noise)),
       el("div", { class: "cards" },
         el("section", { class: "panel", "aria-label": "Opponent" }, el("h2", {}, "Against the house"), bots),
         el("section", { class: "panel", "aria-label": "Another player" }, el("h2", {}, "Against another player"),
@@ -81,7 +83,7 @@ export class PlayView {
       const { matches } = await get(`/v1/matches?agent=${me.id}&status=challenged`).catch(() => ({ matches: [] }));
       const mine = matches.filter((match) => match.agents[match.challenger] !== me.id);
       fill(place, mine.length ? mine.map((match) => el("button", { type: "button", onclick: () => this.accept(match.id) },
-        `Accept ${match.players[match.challenger]}`)) : el("p", { class: "empty" }, "None."));
+        `Accept ${match.players[match.challenger]}, ${describeTable(match.table)}`)) : el("p", { class: "empty" }, "None."));
       await pause(AGAIN);
       if (!choice.aborted) await this.continueMatch(me, choice).catch(() => null);
     }
@@ -97,7 +99,7 @@ export class PlayView {
 
   async challenge(opponent) {
     const terms = {
-      agents: [identity().id, opponent], games: 1, rated: false, client_seed_seconds: SEEDS_WITHIN,
+      agents: [identity().id, opponent], games: 1, ...(this.table.value && { table: this.table.value }), rated: false, client_seed_seconds: SEEDS_WITHIN,
       noise: { level: Number(this.noise.value), told: true }, clock: { seconds: SECONDS },
     };
     await this.attempt(async () => {

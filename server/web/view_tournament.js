@@ -4,6 +4,7 @@ import { get } from "./api.js";
 import { ago, el, facts, fill } from "./dom.js";
 import { foreseeableMark, stateMark } from "./match_row.js";
 import { ratingPlot } from "./rating_plot.js";
+import { describeTable } from "./tables.js";
 import { describeOutcome } from "./words.js";
 
 /** Time between two looks at a tournament that is not over, ms. */
@@ -46,7 +47,7 @@ export class TournamentView {
   show(event, standings, test, ratings) {
     if (this.closed) return;
     fill(this.element, el("header", { class: "heading" }, el("h1", {}, event.name),
-      facts(stateMark(event.status), event.format.replaceAll("_", " "), `${event.games} games played`, `${event.due} to come`,
+      facts(stateMark(event.status), event.format.replaceAll("_", " "), describeTable(event.terms.table), `${event.games} games played`, `${event.due} to come`,
         event.foreseeable && foreseeableMark())),
       test && el("p", {}, `Sequential test: ${test.verdict}, log-likelihood ratio ${test.llr.toFixed(2)} in (${test.bounds.map((bound) => bound.toFixed(2)).join(", ")}) after ${test.pairs} pairs`),
       el("div", { class: "halves" }, standingsTable(standings), ratings.length > 1 && el("figure", { class: "panel" }, ratingPlot(ratings),

@@ -45,6 +45,8 @@ export function describeEvent({ kind, ball, other }) {
       return `${name} meets ${ballName(other)}`;
     case "rail_collision":
       return `${name} at the ${CUSHIONS[other]} cushion`;
+    case "jaw_collision":
+      return `${name} at a jaw of the ${POCKETS[other >> 1]} pocket`;
     case "pocket_collision":
       return `${name} falls in the ${POCKETS[other]} pocket`;
     default:

@@ -3,18 +3,20 @@
 import pytest
 
 from benchmarks import recording, search, search_breaks, search_habits
+from physics import Table
+from referee import EightBall
 from tournament.statistics import score_of_cells
 
 
 @pytest.mark.slow
 def test_a_pair_is_two_games_on_the_same_racks():
-    row = search.play_pair(("search:shots=300", "random"), 1.0, 3)
+    row = search.play_pair(("search:shots=300", "random"), 1.0, "olympiad", 3)
     mine, theirs = row["of_player"], row["of_opponent"]
     assert mine["points"] + theirs["points"] == 2.0
     assert (mine["breaks"], theirs["breaks"]) == (1, 1)
     assert mine["strokes"] >= mine["called"] >= mine["made"] >= 0
     assert mine["simulated"] > 0
-    again = search.play_pair(("search:shots=300", "random"), 1.0, 3)
+    again = search.play_pair(("search:shots=300", "random"), 1.0, "olympiad", 3)
     assert {**again["of_player"], "seconds": 0} == {**mine, "seconds": 0}
 
 
@@ -33,7 +35,7 @@ def match_of(points):
         | {"of_opponent": side | {"points": 2.0 - mine, "seconds": 0.1, "fouls": {}}}
         for pair, mine in enumerate(points)
     ]
-    return search.match_row("a", "b", 1.0, pairs)
+    return search.match_row("a", "b", 1.0, "olympiad", pairs)
 
 
 @pytest.mark.parametrize(
@@ -56,7 +58,7 @@ def test_scores_are_as_sure_as_in_tournaments(points, cells):
 
 @pytest.mark.slow
 def test_a_study_of_breaks_finds_one_that_goes_on():
-    best, *others = search_breaks.study(1.0, ((6, 10), (2, 20)))
+    best, *others = search_breaks.study(EightBall(Table.olympiad()), 1.0, ((6, 10), (2, 20)))
     assert best["worth"] >= max(other["worth"] for other in others)
     assert best["goes_on"] > 0.7  # the studied break is among them; 0.98 of its breaks go on
 

@@ -7,10 +7,53 @@ import numpy as np
 import pytest
 
 import physics
-from benchmarks import hostile, smallest, soundness, stress
+from benchmarks import everything, hostile, hostile_jaws, pieces, smallest, soundness, stress
 from referee import Limits
 
 SEED = 5
+NINE = physics.RealTable.of_size("nine_foot").replace(cue_test=False)
+
+
+@pytest.mark.parametrize("kind", hostile_jaws.CLASSES)
+def test_hostile_shots_on_tables_with_jaws(kind):
+    """The same, and nothing missed or invented between the events of some: everything against everything."""
+    tally = stress.attempt(kind, SEED, 100 if kind == "jaws: limits of the table" else 400, 6)
+    assert not tally.failures, tally.failures[0]
+    assert tally.flights >= 6
+    if "limits" not in kind:
+        assert tally.status["AT_REST"] == tally.shots
+
+
+def test_the_oracle_agrees_with_looking_often():
+    """Deepest overlap on random parabolas, against 20,001 instants of each."""
+    rng, instants = np.random.default_rng(4), np.linspace(0.0, 0.7, 20_001)
+    for _ in range(40):
+        c, b, a = rng.normal(0.0, 0.1, (1, 2)), rng.normal(0.0, 0.5, (1, 2)), rng.normal(0.0, 0.7, (1, 2))
+        way = c + instants[:, None] * (b + instants[:, None] * a)
+        depth = max(0.0, float((0.3 - np.linalg.norm(way, axis=1)).max()))
+        assert depth - 1e-12 <= everything.deepest_in_discs((c, b, a), 0.7, np.array([0.3])) <= depth + 1e-6
+
+
+def test_the_oracle_sees_a_contact_that_was_missed_or_invented():
+    """A rattle is judged by a table with other mouths: its jaws were passed through, its collisions are apart."""
+    state = physics.TableState.from_positions({0: (0.9, 0.06)})
+    result = physics.simulate(NINE, state, physics.Shot(6.0, 182.5))
+    right = everything.look_over(result, pieces.pieces_of(NINE), 80)
+    assert right.contacts > 2
+    assert max(right.beyond, right.apart) < 1e-12
+    assert everything.look_over(result, pieces.pieces_of(NINE.replace(corner_mouth=0.11)), 80).beyond > 1e-4
+    assert everything.look_over(result, pieces.pieces_of(NINE.replace(corner_mouth=0.12)), 80).apart > 1e-4
+
+
+def test_balls_in_a_nose_a_facing_and_a_horn_and_over_a_hole_are_seen():
+    """Each a millimetre too deep."""
+    jaw, near = NINE.pockets[0].jaws[0], NINE.contact_distance - 1e-3
+    middle = 0.5 * (np.array(jaw.facing_start) + jaw.facing_end)
+    round_horn = np.array(jaw.horn_centre) + (near + jaw.horn_radius) * np.array([-0.28, 0.96])
+    states = np.full((5, 16, 2), np.nan)
+    states[:, 0] = (0.5, 1.0), (near, 0.3), middle + near * np.array(jaw.facing_normal), round_horn, (-0.0057625, 1.27)
+    assert soundness.beyond(NINE, states) == pytest.approx([0.0, *[1e-3] * 4], abs=1e-12)
+    assert soundness.misplaced(NINE, states).tolist() == [False, True, True, True, True]
 
 
 @pytest.mark.parametrize("kind", hostile.CLASSES)
@@ -24,7 +67,7 @@ def test_hostile_shots_end_at_rest_inside_the_table_without_overlap(kind):
         assert tally.most_events < Limits().events, "a stroke of a game would be ended"
 
 
-@pytest.mark.parametrize("kind", hostile.CLASSES)
+@pytest.mark.parametrize("kind", stress.CLASSES)
 def test_the_same_seed_draws_the_same_scenes(kind):
     for one, two in zip(stress.scene_of(kind, 3, 50)[1:], stress.scene_of(kind, 3, 50)[1:], strict=True):
         assert one.tobytes() == two.tobytes()

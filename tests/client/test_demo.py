@@ -203,7 +203,12 @@ def test_a_bad_answer_is_shown_as_it_happens_and_a_commands_standard_error_is_ke
 
 @pytest.mark.parametrize(
     ("arguments", "named"),
-    [(["--agents", "nobody", "random"], "nobody"), (["--noise", "7"], "noise"), (["--games", "0"], "games")],
+    [
+        (["--agents", "nobody", "random"], "nobody"),
+        (["--noise", "7"], "noise"),
+        (["--games", "0"], "games"),
+        (["--table", "snooker"], "name = 'snooker'"),
+    ],
 )
 def test_wrong_usage_is_exit_code_2(arguments, named):
     done = run("demo", *arguments)
@@ -216,3 +221,23 @@ def test_an_earlier_demo_is_not_overwritten(finished):
     done = run("demo", "--out", out)
     assert done.returncode == 2
     assert str(out) in done.stderr
+
+
+def test_a_match_between_jaws(tmp_path):
+    """`--table` by name: server, both agents, the record and its verification are on the nine-foot table."""
+    done = run(
+        "demo", "--agents", "random", "random", "--table", "nine_foot", "--seed", 2, "--out", tmp_path / "out", "--json"
+    )
+    assert done.returncode == 0, done.stderr
+    account = json.loads(done.stdout)
+    assert (account["status"], account["table"]) == ("finished", "nine_foot")
+    (game,) = account["games"]
+    header = json.loads(Path(game["record"]).read_text().splitlines()[0])
+    assert header["table"]["name"] == "nine_foot"
+    verified = run("replay", "verify", game["record"])
+    assert verified.returncode == 0, verified.stdout + verified.stderr
+    stroke = run("replay", "show", game["record"], "--shot", "1", "--as", "python")
+    again = subprocess.run(
+        [sys.executable, "-c", stroke.stdout], capture_output=True, text=True, check=False, timeout=240
+    )
+    assert again.returncode == 0, again.stderr

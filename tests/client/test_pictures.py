@@ -1,5 +1,6 @@
 """Pictures from the command line."""
 
+import html
 import json
 import re
 
@@ -60,3 +61,14 @@ def test_a_stroke_that_was_not_played_is_told(record, tmp_path):
     done = run("replay", "picture", str(record), "--shot", "9999", "-o", str(tmp_path / "none.svg"))
     assert done.exit_code == 2
     assert "this game has strokes 1 to" in done.stderr
+
+
+def test_a_match_shows_itself_in_a_line_and_as_a_replay():
+    match = play("random", "random", games=2, seed=4)
+    assert repr(match).startswith("<LocalMatch random")
+    assert len(repr(match)) < 100
+    assert f", {len(match.games[0].strokes)} strokes>" in repr(match.games[0])
+    page = html.unescape(match._repr_html_().partition('srcdoc="')[2].partition('" title=')[0])
+    shown = re.search(r'id="scenes">(.*?)</script>', page, re.DOTALL)
+    strokes = [stroke for game in match.games for stroke in game.strokes if stroke.shot is not None]
+    assert len(json.loads(shown.group(1))) == len(strokes)

@@ -112,7 +112,7 @@ def test_the_break_is_the_studied_one():
 
 def test_a_break_makes_way_for_a_ball_in_its_place():
     """A game may begin anywhere: here a ball lies where the studied break puts the cue ball."""
-    place = best_break(1.0).place
+    place = best_break(1.0, TABLE).place
     balls = {5: place, 1: (0.558, 0.559), 8: (0.4, 0.3)}
     action, _ = choice(balls, phase=Phase.BREAK, groups=None, cue_ball_in_hand=CueBallArea.KITCHEN)
     assert action.cue_ball != place

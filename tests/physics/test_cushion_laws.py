@@ -1,9 +1,11 @@
 """Cushion laws that know spin and speed, as functions: the impact law, ``han`` and ``mathavan`` (FLIGHT 2, 5)."""
 
+import itertools
 import json
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -101,6 +103,24 @@ def test_english_turns_a_bank(side, degrees):
     """FLIGHT section 8: v 45 deg towards +x, +y, w_z = side v/R, natural roll, han 0.85 / 0.2."""
     v, _ = by_han(*rolling(2.0, 45.0, side * 2.0 / R))
     assert out_angle(v) == pytest.approx(degrees, abs=0.005)
+
+
+def test_a_bank_of_45_degrees_by_the_literatures_model():
+    """Mathavan 2010 at the nose height of the WPA: the bank ends at 37 degrees slid, at 53 rolled (FLIGHT, Part II)."""
+    slid, rolled = by_mathavan(rolling(2.0, 45.0)[0], (0.0, 0.0, 0.0)), by_mathavan(*rolling(2.0, 45.0))
+    assert out_angle(rolls_on(*slid)) == pytest.approx(37.0, abs=0.1)
+    assert out_angle(rolls_on(*rolled)) == pytest.approx(53.2, abs=0.1)
+    halfway = by_mathavan((2.0 * math.sqrt(0.5),) * 2, tuple(0.5 * w for w in rolling(2.0, 45.0)[1]))
+    assert 37.0 < out_angle(rolls_on(*halfway)) < 53.2
+
+
+@pytest.mark.parametrize(("law", "narrowest", "widest"), [(by_han, 41.6, 56.1), (by_mathavan, 36.3, 50.8)])
+def test_english_opens_a_bank_one_way_and_closes_it_the_other(law, narrowest, widest):
+    """Running english lengthens, reverse english shortens: from -1.5 v/R to 1.5 v/R the way out turns steadily."""
+    outs = [out_angle(law(*rolling(2.0, 45.0, side * 2.0 / R))[0]) for side in np.linspace(-1.5, 1.5, 31)]
+    assert all(more > less for more, less in itertools.pairwise(outs))
+    assert outs[0] == pytest.approx(widest, abs=0.1)
+    assert outs[-1] == pytest.approx(narrowest, abs=0.1)
 
 
 def test_straight_in_with_side_leaves_to_the_side():

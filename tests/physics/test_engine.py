@@ -137,3 +137,15 @@ def test_no_home_and_nothing_writable_is_no_error(tmp_path):
     usual = run_shot()
     lost = run_shot(HOME=str(unwritable), XDG_CACHE_HOME=str(unwritable), POOLIAD_CACHE_DIR=str(unwritable))
     assert lost.stdout == usual.stdout
+
+
+def test_compiling_is_announced_for_what_is_not_kept_yet(tmp_path, capsys):
+    """Kernels of straight mouths that are kept say nothing about those with jaws."""
+    (tmp_path / "kernels_0").mkdir()
+    (tmp_path / "kernels_0" / "entries.simulate_rows-24.py311.nbi").touch()
+    engine.say_if_compiled_now(tmp_path, "entries", "the physics")
+    assert capsys.readouterr().err == ""
+    engine.say_if_compiled_now(tmp_path, "entries_real", "the physics of tables with jaws")
+    assert "compiling the physics of tables with jaws" in capsys.readouterr().err
+    engine.say_if_compiled_now(None, "entries", "the physics")
+    assert "compiling the physics for" in capsys.readouterr().err

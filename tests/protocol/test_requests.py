@@ -12,6 +12,8 @@ from physics.shot import Shot
 from physics.table import Table
 from protocol.values import Request
 from referee.game import Action, Call, Decision
+from server.errors import invalid_fields
+from tournament import Spec
 
 SHOT = {"v": 3.0, "phi": 270.0, "theta": 5.0, "a": 0.0, "b": 4.0}
 STROKE = {"shot": SHOT, "call": {"ball": 3, "pocket": 0}, "cue_ball": [0.5, 1.7]}
@@ -206,3 +208,32 @@ def test_a_request_may_name_the_pocket_and_answers_have_its_number():
     assert faults(wire.ShotRequest, STROKE | {"call": {"ball": 3, "pocket": "north"}}) == {
         ("int_type", ("call", "pocket"))
     }
+
+
+def test_terms_of_a_tournament_are_its_spec_and_described_as_such():
+    """In either form of an event file; sent as `Spec.to_dict` writes them."""
+    spec = Spec.from_dict({"name": "Cup", "entrants": ["ann", "bob"], "noise": 2})
+    for terms in (spec, spec.to_dict(), {"name": "Cup", "entrants": ["ann", "bob"], "noise": 2}):
+        request = wire.TournamentRequest.model_validate({"terms": terms})
+        assert request.terms == spec
+        assert json.loads(request.model_dump_json())["terms"] == spec.to_dict()
+    described = wire.TournamentRequest.model_json_schema()["$defs"]
+    assert set(described["Spec"]["properties"]) == {*spec.to_dict(), "lots", "preset", "foreseeable"}
+    assert [one.get("type") for one in described["Entrant"]["anyOf"]] == ["string", "object"]
+
+
+@pytest.mark.parametrize(
+    ("terms", "detail"),
+    [
+        ({"name": "Cup"}, "terms.entrants = None: must be given"),
+        (
+            {"name": "Cup", "entrants": ["a", "b"], "noise": {"levels": [9]}},
+            "terms.noise.levels.0 = 9: must be a number from 0 to 5",
+        ),
+        ("Cup", "terms: Input should be a valid dictionary"),
+    ],
+)
+def test_terms_that_cannot_be_are_named_once(terms, detail):
+    with pytest.raises(ValidationError) as caught:
+        wire.TournamentRequest.model_validate({"terms": terms})
+    assert str(invalid_fields(caught.value)) == detail

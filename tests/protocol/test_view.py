@@ -1,10 +1,13 @@
 """The view: everything the contract lists, nothing that yields noise, back to the referee's own values."""
 
+import copy
 import json
+import pickle
 from dataclasses import replace
 from typing import Any
 
 import pytest
+from pydantic import TypeAdapter
 
 from physics.table import Table
 from protocol import ClockView, GameTerms, NoiseTerms, NoiseView, View
@@ -122,3 +125,42 @@ def test_whose_turn_it_is():
     assert over.turn is None
     assert not over.my_turn
     assert over.outcome.winner == 1
+
+
+@pytest.mark.parametrize("game", GAMES, ids=lambda game: game.phase.value)
+def test_a_view_nobody_has_read_is_the_one_that_everybody_reads(game):
+    """Fields are made when read: whatever copies, compares, pickles or serialises a view finds all of them."""
+    whole = View.model_validate_json(view_of(game).model_dump_json())
+    assert view_of(game) == whole
+    assert whole == view_of(game)
+    assert repr(view_of(game)) == repr(whole)
+    assert list(dict(view_of(game))) == list(View.model_fields)
+    assert pickle.loads(pickle.dumps(view_of(game))) == whole
+    assert copy.deepcopy(view_of(game)) == whole
+    assert TypeAdapter(list[View]).dump_python([view_of(game)]) == [whole.model_dump()]
+    assert view_of(game).model_copy(update={"why": "Because."}) == whole.model_copy(update={"why": "Because."})
+
+
+def test_a_copy_with_other_balls_has_another_state():
+    view = view_of(GAMES[1])
+    assert view.state is view.state
+    moved = view.model_copy(update={"balls": {0: (0.5, 0.5)}})
+    assert moved.state.balls == (0,)
+    assert len(view.state.balls) == 16
+
+
+def test_what_nobody_reads_is_not_made():
+    """A driver may give what makes the strokes; asking for the balls does not ask for them."""
+    asked: list[int] = []
+    view = view_of(BREAK, strokes_since=lambda: [*map(asked.append, (1,))] and ())
+    assert view.balls
+    assert view.allowed.actions
+    assert view.state == BREAK.state
+    assert not asked
+    assert view.strokes_since == view.strokes_since == ()
+    assert asked == [1]
+
+
+def test_a_field_that_is_none_is_missing():
+    with pytest.raises(AttributeError, match="no_such_field"):
+        _ = view_of(BREAK).no_such_field

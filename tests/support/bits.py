@@ -18,7 +18,7 @@ Play = tuple[str, physics.Table, physics.TableState, physics.Shot]
 
 
 def plays() -> Iterator[Play]:
-    """Breaks, mid-game shots, touching and frozen scenes, both tables; the first ones are the cheapest."""
+    """Breaks, mid-game shots, touching and frozen scenes, all tables; the first ones are the cheapest."""
     rng = np.random.default_rng(99)
     consistent = physics.Table.olympiad().replace(cue_test=False)
     for n in (2, 5, 9, 16):
@@ -37,6 +37,41 @@ def plays() -> Iterator[Play]:
     for gap in (None, 0.0):
         state = physics.rack(consistent, "eight_ball", seed=3, gap=gap)
         yield f"break, gap {gap}", consistent, state, physics.Shot(9.0, 269.7, 4.0, 2.0, 3.0)
+    yield from plays_with_jaws()
+
+
+def plays_with_jaws() -> Iterator[Play]:
+    """Tables with jaws: mid-game shots by every law, a rattle, balls in the jaws and frozen to horns, a break."""
+    rng, nine = np.random.default_rng(15), physics.RealTable.of_size("nine_foot").replace(cue_test=False)
+    for cushion, ball in (
+        ("han", "alciatore"),
+        ("mathavan", "alciatore"),
+        ("factors", "consistent"),
+        ("han", "fastfiz"),
+    ):
+        positions = {number: (round(x, 9), round(y, 9)) for number, (x, y) in mid_game(rng, 7).items()}
+        s = stroke_at(rng, positions)
+        shot = physics.Shot(*(round(value, 6) for value in (s.v, s.phi, s.theta, s.a, s.b)))
+        state = physics.TableState.from_positions(positions)
+        yield f"nine_foot, {cushion}, {ball}", nine.replace(cushion=cushion, ball=ball), state, shot
+    jaws = {0: (0.9, 0.06), 1: (0.02, 0.02), 2: (-0.003, 1.27), 3: (1.25, 2.52), 4: (0.35, 0.3)}
+    state = physics.TableState.from_positions(jaws)
+    yield "nine_foot, rattle", nine, state, physics.Shot(6.0, 182.5, 0.0, 2.0, 1.0)
+    yield "nine_foot, hung balls", nine, state, physics.Shot(3.0, 180.9, 3.0, 0.0, -3.0)
+    for size in ("eight_foot", "seven_foot"):
+        table = physics.RealTable.of_size(size).replace(cue_test=False)
+        corner, side = (at_horn(shape, table.contact_distance) for shape in (table.corner_shape, table.side_shape))
+        at_horns = {0: (0.5, 0.4), 1: corner, 2: (side[1], 0.5 * table.length + side[0]), 3: corner[::-1]}
+        state = physics.TableState.from_positions(at_horns)
+        yield f"{size}, frozen to horns", table, state, physics.Shot(4.0, 219.0, 0.0, -3.0, 2.0)
+    state = physics.rack(nine, "eight_ball", seed=3)
+    yield "nine_foot, break", nine, state, physics.Shot(11.0, 269.7, 4.0, 2.0, 3.0)
+
+
+def at_horn(shape: physics.mouths.Mouth, rho: float) -> tuple[float, float]:
+    """(s, d) of a centre that touches a horn."""
+    reach = shape.horn_radius + rho
+    return shape.nose_end - 0.28 * reach, 0.96 * reach - shape.horn_radius
 
 
 def digest(play: Play) -> str:

@@ -5,12 +5,13 @@ only if it is a web address or a plain relative path.
 """
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from html import escape
 from importlib.resources import files
 from typing import Any
 from urllib.parse import quote
 
+from physics import Table
 from referee.game import RULES
 from tournament.report.data import Data
 from tournament.report.svg import Line, Whisker, dots, lines
@@ -93,7 +94,7 @@ def _terms(data: Data) -> str:
         ("Level told", noise["told"]),
         ("Thinking time", "none" if terms["seconds"] is None else f"{terms['seconds']:g} s for each player and game"),
         ("Simulated shots", "any number" if terms["simulated_shots"] is None else terms["simulated_shots"]),
-        ("Table", terms["table"] if isinstance(terms["table"], str) else terms["table"].get("name", "own")),
+        ("Table", _table_of(terms["table"])),
         ("Racks and noise", "foreseeable, from a known seed" if terms["foreseeable"] else "drawn by the server"),
         ("Games played", state["played"]),
         ("State", "finished" if state["finished"] else f"under way, {state['due']} games due"),
@@ -103,6 +104,15 @@ def _terms(data: Data) -> str:
     if terms["simulated_shots"] is not None:
         pairs += " Agents elsewhere count their simulated shots by honour."
     return table("Terms of the event", ("Term", "Value"), rows, texts=2) + _note(pairs)
+
+
+def _table_of(table: str | Mapping[str, Any]) -> str:
+    """A table's name, and what is otherwise than on the named one."""
+    if isinstance(table, str):
+        return table
+    usual = Table.named(table["name"]).to_dict()
+    own = [f"{name} {text(value)}" for name, value in table.items() if value != usual.get(name)]
+    return ", ".join((table["name"], *own))
 
 
 def _test(data: Data) -> str:

@@ -7,11 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from client.agents.greedy.planned_action import PlannedAction
-from client.agents.greedy.worth import worth
+from client.agents.greedy.worth import worth, worths_of
 from client.simulator import Simulator
+from physics import Batch
 from physics.shot import FIELDS
-from referee import Call, EightBall, Game
+from referee import Action, Call, CueBallArea, EightBall, Game, Phase
 from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
+from referee.rules.batch_rulings import SAFETY_CALL, group_number, read_verdicts
 
 SIGMAS = dict(zip(FIELDS, (SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B), strict=True))
 
@@ -48,10 +50,22 @@ class Judge:
         before = np.repeat([plan.before.positions for plan in plans], copies, axis=0)
         batch = self._simulator.simulate_batch(self._rules.table, before, shots)
         actions = [plan.action for plan in plans for _ in range(copies)]
-        rulings = self._rules.apply_batch(self._game, actions, batch)
-        each = [worth(ruling.game, self._game.turn) for ruling in rulings]
-        mean: NDArray[np.float64] = np.reshape(each, (len(plans), copies)).mean(axis=1)
+        mean: NDArray[np.float64] = self._each(actions, before, batch).reshape(len(plans), copies).mean(axis=1)
         return mean
+
+    def _each(self, actions: Sequence[Action], before: NDArray[np.float64], batch: Batch) -> NDArray[np.float64]:
+        """What every stroke came to, (n,): told from arrays where rulings are not needed, on a break by rulings."""
+        game = self._game
+        if game.phase is Phase.BREAK:
+            rulings = self._rules.apply_batch(game, actions, batch)
+            return np.array([worth(ruling.game, game.turn) for ruling in rulings])
+        calls = [action.call if isinstance(action.call, Call) else None for action in actions]
+        ball = np.array([SAFETY_CALL if call is None else call.ball for call in calls])
+        pocket = np.array([SAFETY_CALL if call is None else call.pocket for call in calls])
+        group = np.full(len(actions), group_number(game.group_of(game.turn)), np.int8)
+        kitchen = game.cue_ball_in_hand is CueBallArea.KITCHEN
+        verdicts = read_verdicts(self._rules.table, before, group, ball, pocket, batch, kitchen)
+        return worths_of(game, verdicts, batch, self._rules.limits)
 
     def pocketed(self, plans: Sequence[PlannedAction], balls: Sequence[int]) -> list[Call | None]:
         """For each plan the first of `balls` that it sends into a pocket as intended, as a call."""

@@ -4,8 +4,14 @@ Between those two it is who shoots next and with how much freedom, and who has f
 about where the balls lie; that is what makes the agent greedy.
 """
 
-from referee import Game, Phase
-from referee.game import remaining
+import numpy as np
+from numpy.typing import NDArray
+
+from physics import Batch
+from physics.facts import NEVER
+from referee import Game, Group, Limits, Phase
+from referee.game import members, remaining
+from referee.rules.batch_rulings import OPEN, Verdicts
 
 WON, LOST, DRAWN = 1.0, 0.0, 0.5
 AT_THE_TABLE = 0.7
@@ -44,3 +50,20 @@ def _initiative(game: Game, seat: int) -> float:
 def _ahead(game: Game, seat: int) -> int:
     """How many balls more than `seat` the opponent has left; 0 on an open table."""
     return len(remaining(game, 1 - seat)) - len(remaining(game, seat))
+
+
+def worths_of(game: Game, verdicts: Verdicts, batch: Batch, limits: Limits) -> NDArray[np.float64]:
+    """`worth` to the player in turn of what follows from each of n strokes, (n,), none of them a break."""
+    on_table = ~np.isnan(batch.positions[:, :, 0])
+    left = [on_table[:, list(members(group))].sum(axis=1) for group in (Group.SOLIDS, Group.STRIPES)]
+    ahead = np.select([verdicts.group == OPEN, verdicts.group == 0], [0, left[1] - left[0]], left[0] - left[1])
+    shoots_next = np.where(verdicts.fouled, OPPONENT_IN_HAND, OPPONENT_SHOOTS)
+    worths = np.where(verdicts.continues, AT_THE_TABLE, shoots_next) + BALL_AHEAD * ahead
+    pocketed = (batch.facts["pocketed"][:, 1:] != NEVER).any(axis=1)
+    dry = np.where(pocketed, 0, game.dry_visits + ((game.visit_strokes == 0) & ~verdicts.continues))
+    stuck = DRAWN if game.replays >= limits.replays else np.where(game.breaker == game.turn, *IN_DECISION.values())
+    worths = np.where(dry >= limits.dry_visits, stuck, worths)
+    if game.stroke + 1 >= limits.strokes:
+        worths[:] = DRAWN
+    worths[verdicts.won], worths[verdicts.lost] = WON, LOST
+    return worths

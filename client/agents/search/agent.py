@@ -77,7 +77,8 @@ class SearchAgent(Agent):
 
     def _break(self, game: Game) -> Action:
         """The studied break."""
-        best, table = breaks.best_break(self._noise), self._rules.table
+        table = self._rules.table
+        best = breaks.best_break(self._noise, table)
         place = best.places(table, game.state)[0]
         return Action(shot=best.stroke(table, game.state.moved(0, place)), cue_ball=place)
 
@@ -88,8 +89,8 @@ class SearchAgent(Agent):
 
     def _worth_after(self, game: Game, decision: Decision, view: View) -> float:
         if decision is Decision.OPPONENT_RERACKS:
-            return 1.0 - breaks.BREAKING
+            return 1.0 - breaks.worth_of_breaking(self._rules.table)
         ruling = self._rules.apply(game, Action(decision=decision), None, None)
         if ruling.rerack:
-            return breaks.BREAKING
+            return breaks.worth_of_breaking(self._rules.table)
         return self._turn(ruling.game, self._budget(view, len(game.decisions))).best().worth

@@ -4,7 +4,9 @@ Jaw coordinates (s, d): s along the nose away from the middle of the mouth, d fr
 is the straight nose from ``nose_end`` on, a horn of radius r about (nose_end, -r), and a facing from the horn into
 the pocket. Where a ball's centre may not be is the jaw dilated by the contact distance rho: the strips in front of nose
 and facing, and the *whole* disc of r + rho about the horn's centre. The disc needs no bounds, for what is hidden of it
-lies inside the strips; so rounding where a strip ends finds the disc an ulp later, never nothing.
+lies inside the strips; so rounding where a strip ends finds the disc an ulp later, never nothing. A ball that runs
+along a strip touches the disc where the strip ends: rounding may take that for a meeting, over and over, so such a one
+must come ``DEEPER``.
 
 A piece is found by its first falling root: the gap goes from >= 0 to below. ``rho`` is
 the contact distance in plan; paths are in jaw coordinates, x for s and y for d.
@@ -13,8 +15,8 @@ the contact distance in plan; paths are in jaw coordinates, x for s and y for d.
 import math
 from typing import NamedTuple
 
-from physics.kernels.compiling import small_kernel
-from physics.kernels.detect.contact import contact, first_root
+from physics.kernels.compiling import kernel, small_kernel
+from physics.kernels.detect.contact import DEEPER_ONLY, contact, first_root, settled_root
 from physics.kernels.detect.line import crossing
 from physics.kernels.path import Path, along
 from physics.kernels.tolerances import DEEPER, SLOW_APPROACH, TOUCH
@@ -84,11 +86,32 @@ def meets_facing(jaw, rho, path, lasts):
     return t if 0.0 <= foot <= jaw.length else math.inf
 
 
+@kernel
+def touches_strip(jaw, rho, s, d):
+    """Whether a centre touches the nose, or the facing, beside it: then it is not the horn that it meets."""
+    gap, foot = from_facing(jaw, s, d)
+    at_nose = (s >= jaw.nose_end) & (abs(d - rho) <= TOUCH)
+    return at_nose | ((foot >= 0.0) & (abs(gap - rho) <= TOUCH))
+
+
+@kernel
+def deeper_in_horn(from_centre, t, lasts, limit, reach):
+    """``meets_horn`` for a path that at ``t`` is at the disc where nose or facing ends: from there on, DEEPER."""
+    x, y, vx, vy, hx, hy = from_centre
+    here = Path(along(x, vx, hx, t), along(y, vy, hy, t), vx + 2.0 * hx * t, vy + 2.0 * hy * t, hx, hy)
+    found = settled_root(here, lasts - t, limit - t, reach)
+    # Nearer and nearer from here on: it is met here, unless it was here already.
+    return t if (found.ended == DEEPER_ONLY) & (t > 0.0) else t + found.time
+
+
 @small_kernel
 def meets_horn(jaw, rho, path, lasts, limit):
     """First t in [0, ``lasts``] at which a path meets a horn; NaN if none, or none up to ``limit``."""
     from_centre = Path(path.x - jaw.nose_end, path.y + jaw.horn, path.vx, path.vy, path.hx, path.hy)
-    return contact(from_centre, lasts, limit, jaw.horn + rho).time
+    t = contact(from_centre, lasts, limit, jaw.horn + rho).time
+    if t == t and touches_strip(jaw, rho, along(path.x, path.vx, path.hx, t), along(path.y, path.vy, path.hy, t)):
+        return deeper_in_horn(from_centre, t, lasts, limit, jaw.horn + rho)
+    return t
 
 
 @small_kernel

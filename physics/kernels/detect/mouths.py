@@ -2,8 +2,9 @@
 
 Inside the rectangle of the nose lines moved inward by rho there is no part of a jaw or a hole, so the four lines are
 the broad phase, and an exact one: a path meets each at most once from inside. Where it does, it meets the cushion if
-the foot is on the nose, else it comes into that mouth; then the mouth's two horns, two facings and drop edge are looked
-for over the whole path. So they are for a ball that is in a mouth now (docs/physics.md, "Jaws").
+the foot is on the nose, else it comes into that mouth; then, unless it meets a cushion before, the mouth's two horns,
+two facings and drop edge are looked for over the whole path. So they are for a ball that is in a mouth now
+(docs/physics.md, "Jaws").
 
 Everything is met in jaw coordinates, signs flipped, both jaws of a corner alike: mirror images have the same bits.
 """
@@ -102,29 +103,48 @@ def reached(gap, speed, half, on_nose):
 
 
 @small_kernel
+def through_line(s, path, line):
+    """(when a path falls through a nose line; where along it; whether that is beside the nose)."""
+    sign = 1.0 if line & 1 else -1.0
+    if line <= at.EAST:
+        gap = load(s.p, at.P_LINE_X) - sign * path.x
+        t = reached(gap, sign * path.vx, sign * path.hx, beside_long_nose(s, path.y))
+        y = along(path.y, path.vy, path.hy, t) if t < math.inf else 0.0
+        return t, y, beside_long_nose(s, y)
+    gap = load(s.p, at.P_LINE_Y) - sign * path.y
+    t = reached(gap, sign * path.vy, sign * path.hy, beside_short_nose(s, path.x))
+    x = along(path.x, path.vx, path.hx, t) if t < math.inf else 0.0
+    return t, x, beside_short_nose(s, x)
+
+
+@kernel
+def mouths_entered(s, path, lines, until):
+    """Bit set of the mouths into which a path falls through one of ``lines``, none of them beside a nose."""
+    mouths = 0
+    while lines != 0:
+        line = lowest_bit(lines)
+        lines &= lines - 1
+        sign = 1.0 if line & 1 else -1.0
+        t, place, _ = through_line(s, path, line)
+        if t <= until:
+            mouths |= 1 << (mouth_on_long_line(s, sign, place) if line <= at.EAST else corner_near(place, sign))
+    return mouths
+
+
+@small_kernel
 def meet_noses(s, path, best):
-    """(the cushion the path meets before ``best``, bit set of the mouths that it comes into)."""
-    lasts, mouths = best.time, 0
-    rest = lines_in_reach(s, path, lasts)
+    """(the cushion the path meets before ``best``, bit set of the mouths that it comes into until then)."""
+    openings = 0
+    rest = lines_in_reach(s, path, best.time)
     while rest != 0:
         line = lowest_bit(rest)
         rest &= rest - 1
-        sign = 1.0 if line & 1 else -1.0
-        if line <= at.EAST:
-            gap = load(s.p, at.P_LINE_X) - sign * path.x
-            t = reached(gap, sign * path.vx, sign * path.hx, beside_long_nose(s, path.y))
-            y = along(path.y, path.vy, path.hy, t) if t < math.inf else 0.0
-            on_nose, mouth = beside_long_nose(s, y), mouth_on_long_line(s, sign, y)
-        else:
-            gap = load(s.p, at.P_LINE_Y) - sign * path.y
-            t = reached(gap, sign * path.vy, sign * path.hy, beside_short_nose(s, path.x))
-            x = along(path.x, path.vx, path.hx, t) if t < math.inf else 0.0
-            on_nose, mouth = beside_short_nose(s, x), corner_near(x, sign)
-        if t <= lasts and not on_nose:
-            mouths |= 1 << mouth
+        t, _, on_nose = through_line(s, path, line)
+        if not on_nose:
+            openings |= int(t <= best.time) << line
         elif t < best.time:
             best = Coming(t, at.MEET_CUSHION, line)
-    return best, mouths
+    return best, mouths_entered(s, path, openings, best.time) if openings != 0 else 0
 
 
 @small_kernel

@@ -191,7 +191,7 @@ def is_in_air(s, touch):
     return (load(s.w, at.Z + touch.i) > 0.0) | (load(s.w, at.Z + touch.j) > 0.0)
 
 
-@small_kernel
+@kernel
 def rub_anywhere(s, touch, normal_change, share, shift):
     """See ``rub``."""
     if is_in_air(s, touch):

@@ -131,7 +131,7 @@ def flies(s, i):
     return load_integer(s.k, at.FLYING_BALLS) >> i & 1 != 0
 
 
-@small_kernel
+@kernel
 def speed_towards(s, i, number):
     """Speed of ball ``i`` towards a cushion or jaw that it touches, m/s."""
     wall = wall_at(s, number, i)
@@ -193,7 +193,7 @@ def thrown(s, wall, v, w):
     return pressed_up(s, -vz) if vz < 0.0 else vz
 
 
-@small_kernel
+@kernel
 def rebound(s, i, number):
     """A collision with a cushion or jaw, by the table's law; in the air by the impact law."""
     wall = wall_at(s, number, i)
@@ -227,7 +227,7 @@ def take_across(s, x_row, i, nx, ny):
         store(s.w, x_row + at.LANES + i, y - taken * ny)
 
 
-@small_kernel
+@kernel
 def stop(s, i, number):
     """An approach that is rounding: no velocity across the wall; the spin is kept, for it may carry the ball off."""
     wall = wall_at(s, number, i)
@@ -238,7 +238,7 @@ def stop(s, i, number):
     take_across(s, at.VX, i, wall.nx, wall.ny)
 
 
-@small_kernel
+@kernel
 def hold(s, i, number):
     """A soft touch: no velocity across the wall, no spin about its direction; nothing else changes."""
     wall = wall_at(s, number, i)
@@ -250,7 +250,7 @@ def hold(s, i, number):
     take_across(s, at.WX, i, -wall.ny, wall.nx)
 
 
-@small_kernel
+@kernel
 def returns(s, i, number):
     """Whether ball ``i``'s own acceleration brings it back to a cushion or jaw it touches within the rest time."""
     wall = wall_at(s, number, i)
@@ -278,7 +278,7 @@ def is_same(_s, one, other):
     return cushion_of(one) == cushion_of(other)
 
 
-@small_kernel
+@kernel
 def leaves(s, i, number):
     """Whether a ball that has touched the cushion of ``number`` ever since is leaving it, or touches it no more."""
     here = touched(s, i)

@@ -1,7 +1,7 @@
 """A flying ball at the noses, horns and facings of a table with jaws: what it touches, and what they do to it.
 
 A nose gives a flying ball the impact law with its normal in space, and keeps the vertical speed (docs/physics.md,
-eq. 32, 47). Gravity cannot be held as friction can: where it presses a ball against a nose, the ball is parted from it
+eq. 33, 47). Gravity cannot be held as friction can: where it presses a ball against a nose, the ball is parted from it
 as touching balls are.
 """
 

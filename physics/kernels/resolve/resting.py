@@ -38,7 +38,7 @@ def pressing_in_air(s, touch):
     return -((nx * ax + ny * ay) + nz * az) - across / (2.0 * load(s.p, at.P_RADIUS))
 
 
-@small_kernel
+@kernel
 def pressing_anywhere(s, touch):
     """See ``pressing``."""
     if any_flies(s, 1 << touch.i | 1 << touch.j):

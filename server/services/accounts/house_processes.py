@@ -18,6 +18,7 @@ from server.services.accounts import house_bots
 from server.services.accounts.house_bots import HouseBot
 from server.services.matches.player_seeds import begin_or_wait
 from server.services.runtime.context import Context
+from server.services.runtime.periodic import Periodic, at_work
 
 log = logging.getLogger("pooliad.server.house")
 
@@ -57,14 +58,12 @@ class House:
             return
         self._url = asyncio.get_running_loop().create_future()
         ids = [await run_in_threadpool(house_bots.enter, self._context, bot) for bot in self._bots]
-        tasks = [asyncio.create_task(self._keep(bot, one)) for bot, one in zip(self._bots, ids, strict=True)]
-        tasks.append(asyncio.create_task(self._accept()))
+        keeping = (self._keep(bot, one) for bot, one in zip(self._bots, ids, strict=True))
+        accepting = Periodic("taking up challenges that wait for a place", self._accept, LOOK_EVERY)
         try:
-            yield
+            async with at_work(*keeping, accepting.run()):
+                yield
         finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
             await run_in_threadpool(house_bots.release, self._context, self._holder)
 
     async def _keep(self, bot: HouseBot, agent_id: str) -> None:
@@ -108,15 +107,7 @@ class House:
             return True
 
     async def _accept(self) -> None:
-        """Take up the challenges that had to wait for a place."""
-        while True:
-            await asyncio.sleep(LOOK_EVERY)
-            try:
-                await run_in_threadpool(accept_waiting, self._context)
-            except Unavailable:
-                continue
-            except Exception:
-                log.exception("waiting challenges could not be looked at; they are looked at again")
+        await run_in_threadpool(accept_waiting, self._context)
 
 
 def accept_waiting(context: Context) -> None:

@@ -1,1 +1,1 @@
-"""What every service works with: context, time, heartbeat, wake-ups, caches, warm-up."""
+"""What every service works with: context, time, periodic work, heartbeat, wake-ups, caches, warm-up."""

@@ -5,7 +5,6 @@ none: every running turn is charged up to the last heartbeat and no further. It 
 listens; from that moment turns can be fetched anew, and their grace begins.
 """
 
-import asyncio
 import contextlib
 import logging
 import secrets
@@ -17,6 +16,7 @@ from referee.play.clock import SECOND_NS
 from server.errors import Unavailable
 from server.services.play.clock import standstill
 from server.services.runtime.context import Context, Writing
+from server.services.runtime.periodic import Periodic
 from server.store.locks import only_one
 from server.store.tables import heartbeats
 
@@ -36,13 +36,11 @@ class Heartbeat:
     async def running(self) -> AsyncIterator[None]:
         """Take up the games that wait, and beat for as long as the block lasts."""
         await self._context.run_aside(self._begin)
-        task = asyncio.create_task(self._run())
+        beats = Periodic("the heartbeat", self._beat_once, self._period, outage=self._missed)
         try:
-            yield
+            async with beats.running():
+                yield
         finally:
-            task.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await task
             try:
                 await self._context.run_aside(self._leave)
             except Unavailable:
@@ -84,16 +82,12 @@ class Heartbeat:
         standstill.release(self._context)
         self._releases = False
 
-    async def _run(self) -> None:
-        while True:
-            await asyncio.sleep(self._period)
-            try:
-                await self._context.run_aside(self._beat)
-            except Unavailable:
-                self._context.pulse.missed()
-                log.warning("no heartbeat: the database does not answer; the next is due in %g s", self._period)
-            except Exception:
-                log.exception("no heartbeat; the next is due in %g s", self._period)
+    async def _beat_once(self) -> None:
+        await self._context.run_aside(self._beat)
+
+    def _missed(self) -> None:
+        self._context.pulse.missed()
+        log.warning("no heartbeat: the database does not answer; the next is due in %g s", self._period)
 
 
 def begin(context: Context, process: str, *, alone: bool) -> None:

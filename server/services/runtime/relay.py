@@ -12,6 +12,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 import psycopg
 
 from server.services.runtime.context import Context
+from server.services.runtime.periodic import Periodic, at_work
 from server.store.postgresql import driver_url
 
 log = logging.getLogger("pooliad.server.relay")
@@ -37,14 +38,10 @@ class Relay:
         if not self._context.database.is_shared:
             yield
             return
+        ends = (_until_lost(self._listen), _until_lost(self._send))
         self._outgoing = self._context.wakeups.outgoing = asyncio.Queue()
-        tasks = [asyncio.create_task(_for_ever(work)) for work in (self._listen, self._send)]
-        try:
+        async with at_work(*(Periodic("a wake-up connection", work, PAUSE, first=0).run() for work in ends)):
             yield
-        finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _listen(self) -> None:
         async with await self._connected() as connection:
@@ -67,11 +64,13 @@ class Relay:
         return await psycopg.AsyncConnection.connect(driver_url(self._context.database.url), autocommit=True)
 
 
-async def _for_ever(work: Callable[[], Awaitable[None]]) -> None:
-    """Begin again whenever the connection is lost."""
-    while True:
+def _until_lost(work: Callable[[], Awaitable[None]]) -> Callable[[], Awaitable[None]]:
+    """The work, ended in silence but for a warning when its connection is lost."""
+
+    async def attempt() -> None:
         try:
             await work()
         except (psycopg.Error, OSError) as error:
             log.warning("wake-ups between processes are interrupted: %s", error)
-        await asyncio.sleep(PAUSE)
+
+    return attempt

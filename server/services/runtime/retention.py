@@ -4,22 +4,16 @@ An answer is kept for at least `answer_seconds`, for as long as the match is on 
 hour in which a server runs: a player who could not reach any asks then.
 """
 
-import asyncio
-import contextlib
-import logging
-from collections.abc import AsyncIterator
 from functools import partial
 from typing import Final
 
 from sqlalchemy import delete, exists, select, tuple_
 
 from referee.play import nanoseconds
-from server.errors import Unavailable
 from server.services.play.live_game import RUNNING
 from server.services.runtime.context import Context
+from server.services.runtime.periodic import Periodic
 from server.store.tables import answers, games, matches
-
-log = logging.getLogger("pooliad.server.retention")
 
 AFTER_START: Final = 3600.0
 """Seconds: longer than the SDK asks again for one answer."""
@@ -35,39 +29,15 @@ _IN_A_MATCH: Final = exists().where(
 )
 
 
-class Retention:
-    """Looks for old answers now and then."""
+def retention(context: Context) -> Periodic:
+    """The look for old answers, now and then."""
 
-    def __init__(self, context: Context) -> None:
-        self._context = context
+    async def look() -> None:
+        while await context.run_aside(partial(prune, context)) == BATCH:
+            continue
 
-    @contextlib.asynccontextmanager
-    async def running(self) -> AsyncIterator[None]:
-        """At work for as long as the block lasts."""
-        task = asyncio.create_task(self._run())
-        try:
-            yield
-        finally:
-            task.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await task
-
-    async def _run(self) -> None:
-        seconds = self._context.settings.answer_seconds
-        await asyncio.sleep(min(seconds, AFTER_START))
-        while True:
-            with contextlib.suppress(Unavailable):  # the heartbeat says so
-                await self._prune()
-            await asyncio.sleep(min(seconds, PERIOD))
-
-    async def _prune(self) -> None:
-        try:
-            while await self._context.run_aside(partial(prune, self._context)) == BATCH:
-                continue
-        except Unavailable:
-            raise
-        except Exception:
-            log.exception("old answers could not be deleted; the next look is due in %g s", PERIOD)
+    seconds = context.settings.answer_seconds
+    return Periodic("deleting old answers", look, min(seconds, PERIOD), first=min(seconds, AFTER_START))
 
 
 def prune(context: Context) -> int:

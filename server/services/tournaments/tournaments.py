@@ -5,9 +5,9 @@ How an event stands follows from its terms and its entries alone, by the same co
 holds the match already, and nothing that holds an event's name then waits for a match that exists.
 """
 
-import re
 import secrets
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, Final
 
 from sqlalchemy import Connection, Row, insert, select
@@ -29,7 +29,7 @@ from server.services.runtime.context import Context, Writing
 from server.services.tournaments import progress, tournament_views
 from server.store import paging
 from server.store.tables import agents, tournaments
-from tournament import Spec, TournamentError
+from tournament import Spec
 from tournament.ledger import Act
 from tournament.size import games_of
 
@@ -132,16 +132,11 @@ def _created(writing: Writing, command: Command) -> Answer:
 
 def _spec(request: TournamentRequest) -> Spec:
     """The terms, with secrets drawn here unless a seed was chosen."""
-    terms = dict(request.terms)
-    if terms.get("lots") is not None:
+    spec = request.terms
+    if spec.lots is not None:
         raise invalid_field("terms.lots", "<secret>", "nothing: the server draws them")
-    if terms.get("seed") is None:
-        terms |= {name: secrets.token_hex(SECRET_BYTES) for name in ("seed", "lots")}
-    try:
-        spec = Spec.from_dict(terms)
-    except TournamentError as error:
-        field = re.sub(r"\[(\d+)\]", r".\1", error.field)  # as everywhere on the wire
-        raise invalid_field(f"terms.{field}", error.value, error.allowed) from error
+    if spec.seed is None:
+        spec = replace(spec, seed=secrets.token_hex(SECRET_BYTES), lots=secrets.token_hex(SECRET_BYTES))
     _, games = games_of(spec)
     if games > MOST_GAMES:
         raise invalid_field("terms.pairs", spec.pairs, f"at most {MOST_GAMES} games in all; these terms make {games}")

@@ -14,6 +14,7 @@ from starlette.concurrency import run_in_threadpool
 
 from server.errors import Unavailable
 from server.services.runtime.context import Context
+from server.services.runtime.periodic import at_work
 from server.services.runtime.wakeups import EVERYBODY
 from server.services.watch.spectator_events import RESULT, SpectatorEvent, SpectatorState, opening, since
 
@@ -88,14 +89,11 @@ class Spectators:
     async def running(self) -> AsyncIterator[None]:
         """The looking task at work for as long as the block lasts."""
         self._hint = self._context.wakeups.listen(EVERYBODY)
-        task = asyncio.create_task(self._run())
         try:
-            yield
+            async with at_work(self._run()):
+                yield
         finally:
             self._context.wakeups.leave(EVERYBODY, self._hint)
-            task.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await task
 
     async def watch_one(self, game_id: str, after: int) -> AsyncIterator[bytes]:
         """The stream of one game: how it stands, its strokes after a sequence, then all that happens.

@@ -18,6 +18,7 @@ from client.arena.executors import InProcess, Processes, pool_of
 from client.arena.runner import Runner
 from client.arena.tasks import PairDone
 from client.arena.terms import Terms
+from physics import Table
 from referee.record import verify_record
 from tournament import Tournament, forfeit
 from tournament.ledger import Ledger
@@ -349,3 +350,35 @@ def test_the_sequential_test_is_evaluated_in_the_order_of_pairs(tmp_path):
     with pool_of("processes", 2) as pool:
         other = run(two, pool)
     assert other.event.counted == ledger.event.counted
+
+
+def test_an_event_on_a_table_with_jaws(tmp_path):
+    """By name and parameters: the file's terms, the games, their records and a second run of the same event agree."""
+    table = {"name": "nine_foot", "cushion": "mathavan", "corner_mouth": 0.12}
+    values = {"entrants": ["random", {"name": "other", "agent": "random"}], "table": table}
+    ledger = run(first := begin(tmp_path / "one", **values))
+    assert ledger.event.finished
+    expected = Table.nine_foot().replace(cushion="mathavan", corner_mouth=0.12)
+    for path in first.games.glob("*.jsonl"):
+        record = path.read_text().splitlines()
+        assert verify_record(record).ok
+        assert Table.from_dict(json.loads(record[0])["table"]) == expected
+    run(second := begin(tmp_path / "two", **values))
+    assert files(first) == files(second)
+
+
+def test_entrants_are_tried_on_the_events_table(tmp_path, monkeypatch):
+    """Seen: every agent was started on the Olympiad's table, whatever the event was played on."""
+    (tmp_path / "asking.py").write_text(
+        "import client\n\n\nclass Asking(client.Agent):\n"
+        "    def game_started(self, view):\n"
+        "        raise RuntimeError('started on ' + view.table_model().name)\n\n"
+        "    def choose(self, view):\n"
+        "        return client.Action(decision='concede')\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    directory = begin(
+        tmp_path / "cup", entrants=["random", {"name": "b", "agent": "asking:Asking"}], table="seven_foot"
+    )
+    with pytest.raises(EventError, match="started on seven_foot"):
+        run(directory)

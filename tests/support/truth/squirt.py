@@ -40,7 +40,7 @@ def struck_exactly(
     tip = plus(plus(times(-depth, d), left, -a), up, b)  # from the ball's centre
     offset = plus(tip, u, -dot(tip, u))  # crosswise
     arm = sqrt(dot(offset, offset))
-    if arm == 0:
+    if arm <= radius * mpf(10) ** (5 - mp.dps):  # through the middle: what is left has no direction
         return times(force_of(u, u, tip, radius, mass_ratio, end, e_tip, v), u), (mpf(0),) * 3, False
     p = times(1 / arm, offset)
 

@@ -83,6 +83,19 @@ def report(request):
     return event_report(event) if request.param == "event" else server_report("Standing", event.results)
 
 
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ("olympiad", "olympiad"),
+        ({"name": "nine_foot"}, "nine_foot"),
+        ({"name": "nine_foot", "mu_slide": 0.25, "cushion": "factors"}, "nine_foot, mu_slide 0.25, cushion factors"),
+    ],
+)
+def test_the_terms_name_the_table_and_what_is_otherwise_on_it(table, said):
+    reader = read(page(event_report(nasty_event(table=table))))
+    assert reader.words[reader.words.index("Table") + 1] == said
+
+
 def test_names_are_text_and_never_markup(report):
     reader = read(page(report))
     assert not {"script", "img", "i", "b", "iframe", "link", "object"} & set(reader.tags)

@@ -1,9 +1,6 @@
 """The clock's flag: a game whose mover has run out of time ends by itself, whoever asks or does not ask."""
 
-import asyncio
-import contextlib
 import logging
-from collections.abc import AsyncIterator
 from functools import partial
 
 from sqlalchemy import select
@@ -15,39 +12,21 @@ from server.services.play import games as course
 from server.services.play.live_game import find
 from server.services.runtime import heartbeat
 from server.services.runtime.context import Context
+from server.services.runtime.periodic import Periodic
 from server.store.locks import lease_match_of
 from server.store.tables import games
 
 log = logging.getLogger("pooliad.server.timer")
 
 
-class ClockFlag:
-    """Looks at all deadlines several times a second."""
+def timer(context: Context) -> Periodic:
+    """The look at all deadlines, several times a second."""
 
-    def __init__(self, context: Context) -> None:
-        self._context = context
+    async def look() -> None:
+        await context.run_aside(partial(begin_due, context))
+        await context.run_aside(partial(flag, context))
 
-    @contextlib.asynccontextmanager
-    async def running(self) -> AsyncIterator[None]:
-        """The timer at work for as long as the block lasts."""
-        task = asyncio.create_task(self._run())
-        try:
-            yield
-        finally:
-            task.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await task
-
-    async def _run(self) -> None:
-        while True:
-            await asyncio.sleep(self._context.settings.timer_period)
-            try:
-                await self._context.run_aside(partial(begin_due, self._context))
-                await self._context.run_aside(partial(flag, self._context))
-            except Unavailable:
-                continue  # the heartbeat says so
-            except Exception:
-                log.exception("the timer failed; it goes on")
+    return Periodic("the timer", look, context.settings.timer_period)
 
 
 def flag(context: Context) -> None:

@@ -1,0 +1,79 @@
+"""Kernels without a filter of pairs and without a broad phase, in a process of their own, to compare bits with.
+
+Every pair of balls is solved for, and every ball looks at four nose lines, twelve jaws and six holes each time. What
+the shipped kernels leave out must have been nothing: positions, pockets, facts and counts of events are the same bits.
+"""
+
+import hashlib
+import importlib
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import physics
+from benchmarks import variants
+
+Hashes = NDArray[np.uint64]
+
+PREDICTION = "physics.kernels.detect.prediction"
+
+
+def look_at_everything(*_: object) -> None:
+    """In a new process: replaces the filter and the broad phase before the kernels load."""
+    from physics.kernels import layout as at
+    from physics.kernels.compiling import kernel, load
+    from physics.kernels.detect import mouths
+    from physics.kernels.detect.boundary import Coming, meet_octagon
+    from physics.kernels.path import along
+    from physics.kernels.workspace import by_table
+
+    usual = importlib.import_module(PREDICTION).partners
+    reached, beside_long_nose, beside_short_nose = mouths.reached, mouths.beside_long_nose, mouths.beside_short_nose
+    meet_mouth = mouths.meet_mouth
+
+    @kernel
+    def everyone(s: Any, path: Any, now: float, limit: float) -> int:
+        return usual(s, path, now, limit) | 0xFFFF
+
+    @kernel
+    def meet_everything(s: Any, path: Any, lasts: float) -> Any:
+        best = Coming(lasts, at.NOTHING, 0)
+        for line in range(4):
+            sign = 1.0 if line & 1 else -1.0
+            if line <= at.EAST:
+                gap = load(s.p, at.P_LINE_X) - sign * path.x
+                t = reached(gap, sign * path.vx, sign * path.hx, beside_long_nose(s, path.y))
+                on_nose = t < lasts and beside_long_nose(s, along(path.y, path.vy, path.hy, t))
+            else:
+                gap = load(s.p, at.P_LINE_Y) - sign * path.y
+                t = reached(gap, sign * path.vy, sign * path.hy, beside_short_nose(s, path.x))
+                on_nose = t < lasts and beside_short_nose(s, along(path.x, path.vx, path.hx, t))
+            if on_nose and t < best.time:
+                best = Coming(t, at.MEET_CUSHION, line)
+        for pocket in range(6):
+            best = meet_mouth(s, pocket, path, lasts, best)
+        return best
+
+    variants.replace(PREDICTION, "partners", everyone)
+    variants.replace(PREDICTION, "meet_boundary", by_table(meet_octagon, meet_everything))
+
+
+def hashes_of(batch: physics.Batch) -> Hashes:
+    """(n,) of all that each shot of a batch left."""
+    facts = [batch.facts[name] for name in batch.facts.dtype.names]
+    rows = zip(batch.positions, batch.pocket, batch.status, *facts, strict=True)
+    digests = [hashlib.sha256(b"".join(np.asarray(part).tobytes() for part in row)).digest()[:8] for row in rows]
+    return np.frombuffer(b"".join(digests), np.uint64)
+
+
+def replayed(jobs: list[tuple[str, int, int]]) -> list[Hashes]:
+    """Hashes of chunks (class, seed, shots) of the stress run."""
+    from benchmarks import stress
+
+    found = []
+    for done, job in enumerate(jobs):
+        found.append(hashes_of(physics.simulate_batch(*stress.scene_of(*job))))
+        if done % 10 == 0:
+            print(f"{done} of {len(jobs)} chunks without filter", flush=True)
+    return found

@@ -1,0 +1,61 @@
+"""Loading the compiled step at its first use, and a table as it takes it."""
+
+import functools
+import importlib
+import threading
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from client.geometry.placement import CLEARANCE
+from client.learn import codec
+from client.learn.compiled import layout as to
+from physics import Table
+from physics.constants import PLACEMENT_TOLERANCE
+from physics.engine import cache_folder, digest_of, say_if_compiled_now
+
+_LOADING = threading.Lock()
+
+
+@functools.cache
+def step() -> Any:
+    """The module of the compiled step, ready to be called; kept beside the physics' own compiled kernels."""
+    with _LOADING:  # numba's setting below is the whole process's
+        return _load()
+
+
+@functools.cache
+def _load() -> Any:
+    import numba
+
+    folder, before = cache_folder(), numba.config.CACHE_DIR
+    own = None if folder is None else folder / f"learn-{digest_of(Path(__file__).parent / 'compiled')[:16]}"
+    if not numba.config.DISABLE_JIT:
+        say_if_compiled_now(own, "kernels", "the learning environments")
+    try:
+        numba.config.CACHE_DIR = str(own or "")
+        return importlib.import_module("client.learn.compiled.kernels")
+    finally:
+        numba.config.CACHE_DIR = before
+
+
+def table_row(table: Table) -> NDArray[np.float64]:
+    """(T_SIZE,): see `layout`."""
+    numbers = np.empty(to.T_SIZE)
+    numbers[[to.T_WIDTH, to.T_LENGTH, to.T_HEAD]] = table.width, table.length, table.head_string
+    numbers[to.T_RADIUS], numbers[to.T_CLEAR] = table.ball_radius, 2.0 * table.ball_radius + CLEARANCE
+    numbers[[to.T_SPEED, to.T_ELEVATION, to.T_OFFSET]] = table.v_max, table.theta_max, codec.OFFSET
+    numbers[[to.T_CLEARANCE, to.T_MARGIN, to.T_SLACK]] = CLEARANCE, codec.MARGIN, PLACEMENT_TOLERANCE
+    return numbers
+
+
+def lattice_of(table: Table) -> NDArray[np.float64]:
+    """(3, m) m, NaN behind the end of each: x of the columns, y of the rows, y of the rows in the kitchen."""
+    (columns, rows), radius = codec.LATTICE, table.ball_radius
+    lines = np.full((3, max(columns, rows)), np.nan)
+    lines[0, :columns] = np.linspace(radius, table.width - radius, columns)
+    lines[1, :rows] = np.linspace(radius, table.length - radius, rows)
+    lines[2, :rows] = np.linspace(table.head_string + CLEARANCE, table.length - radius, rows)
+    return lines
