@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import physics
+from physics.constants import EVENT_LIMIT
 
 STILL = (0.0, 0.0)
 
@@ -39,7 +40,7 @@ def rolling(position: tuple[float, float], velocity: tuple[float, float], w_z: f
     return Launch(position, velocity, (-velocity[1] / radius, velocity[0] / radius, w_z))
 
 
-def let_go(table: physics.Table, launches: Mapping[int, Launch], **options: int) -> physics.Result:
+def let_go(table: physics.Table, launches: Mapping[int, Launch], event_limit: int = EVENT_LIMIT) -> physics.Result:
     """What happens from there."""
     positions, velocities = np.full((16, 2), np.nan), np.zeros((16, 2))
     heights, rising = np.zeros(16), np.zeros(16)

@@ -12,7 +12,7 @@ from support.truth.air import Edge, half_towards, stop_at
 from support.truth.detect import Boundary
 from support.truth.flight import is_airborne, keep_down, meet_cloth
 from support.truth.laws import apply_friction, bounce, settle, tangential_impulse
-from support.truth.model import Ball, World, dot, energy
+from support.truth.model import Ball, RealWorld, World, dot, energy, real
 from support.truth.motion import acceleration, classify
 from support.truth.octagon import Line
 from support.truth.rails import Wall, kind_at, number_at
@@ -145,7 +145,7 @@ def cloth_round(cluster: Cluster) -> bool:
     """Step 2b: balls that go down onto the cloth; was there any?"""
     falling = [ball for ball in cluster.balls if goes_down(ball)]
     for ball in falling:
-        meet_cloth(cluster.world, ball, ball.since)
+        meet_cloth(real(cluster.world), ball, ball.since)
         if ball.number in cluster.landing:
             cluster.landing.remove(ball.number)
             cluster.note("landing", ball.number, -1)
@@ -175,8 +175,8 @@ def collide(cluster: Cluster, cushions_only: bool = False) -> None:
 
 def stay_down(cluster: Cluster) -> None:
     """A ball that is hardly lifted stays on the cloth."""
-    for ball in cluster.balls:
-        keep_down(cluster.world, ball)
+    for ball in cluster.balls if isinstance(cluster.world, RealWorld) else ():
+        keep_down(real(cluster.world), ball)
 
 
 def remove_remainder(cluster: Cluster) -> None:
@@ -208,7 +208,7 @@ def reclassify(cluster: Cluster) -> None:
 def returning_to_wall(world: World, ball: Ball, line: Line | Wall | Edge) -> bool:
     """Its own acceleration would bring the ball back to the cushion within tau; round a horn it parts as it moves."""
     if isinstance(line, Edge):
-        half, opening = half_towards(world, ball, line), away(ball, line)
+        half, opening = half_towards(real(world), ball, line), away(ball, line)
         wanted = max(PARTING_SHARE * half * world.rest_time, 2 * world.v_creep)
         return half > 0 and opening < half * world.rest_time and opening < wanted - PARTING_SLACK
     opening, inward = dot(ball.velocity, line.inward), dot(acceleration(world, ball), line.inward)

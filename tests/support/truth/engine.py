@@ -8,7 +8,7 @@ from support.truth.contacts import Cluster, make_cluster, resolve, touching
 from support.truth.detect import Octagon, boundary_of, own_event, pair_contact
 from support.truth.flight import fall
 from support.truth.laws import bounce, historical_collision
-from support.truth.model import OUT_OF_PLAY, Ball, Motion, World
+from support.truth.model import OUT_OF_PLAY, Ball, Motion, World, real
 from support.truth.moments import Event
 from support.truth.motion import advance, classify, end_of_motion
 from support.truth.rails import Rails
@@ -128,7 +128,7 @@ class Shot:
         self.predict([number])
 
     def fall_on_rail(self, event: Event) -> None:
-        number, world = event.ball, self.world
+        number, world = event.ball, real(self.world)
         ball = self.balls[number]
         ball.height = world.nose_height
         fall(world, ball, world.e_rail, world.mu_rail)

@@ -1,7 +1,7 @@
 """Flight by itself (FLIGHT, 2.1-2.3, 2.8): the impact law of fixed bodies, launch, landing, rail top, fall."""
 
 from mpmath import mp, mpc, mpf
-from support.truth.model import Ball, RealWorld
+from support.truth.model import Ball, RealWorld, World
 from support.truth.space import UP, Space, cross, inner, plus, size, spin, velocity
 
 NO_SLIP = mpf("1e-12")
@@ -58,11 +58,11 @@ def is_airborne(ball: Ball) -> bool:
     return ball.height > 0 or ball.rise != 0
 
 
-def fall_time(world: RealWorld, ball: Ball) -> mpf:
+def fall_time(world: World, ball: Ball) -> mpf:
     return (ball.rise + mp.sqrt(ball.rise**2 + 2 * world.gravity * ball.height)) / world.gravity
 
 
-def rise_path(world: RealWorld, ball: Ball, time: mpf) -> tuple[mpf, mpf, mpf]:
+def rise_path(world: World, ball: Ball, time: mpf) -> tuple[mpf, mpf, mpf]:
     """Height from ``time`` on as c + b t + a t^2."""
     if not is_airborne(ball):
         return mpf(0), mpf(0), mpf(0)
@@ -70,13 +70,13 @@ def rise_path(world: RealWorld, ball: Ball, time: mpf) -> tuple[mpf, mpf, mpf]:
     return ball.height + ball.rise * t + half * t * t, ball.rise + 2 * half * t, half
 
 
-def fly(world: RealWorld, ball: Ball, t: mpf) -> None:
+def fly(world: World, ball: Ball, t: mpf) -> None:
     ball.position += ball.velocity * t
     ball.height += ball.rise * t - world.gravity / 2 * t * t
     ball.rise -= world.gravity * t
 
 
-def air_friction(world: RealWorld, pair: tuple[Ball, Ball], n: Space, j_normal: mpf, shared: int, mu: "mpf") -> Space:
+def air_friction(world: World, pair: tuple[Ball, Ball], n: Space, j_normal: mpf, shared: int, mu: "mpf") -> Space:
     """F2's friction on ball 1 per mass, the vertical part kept; ``mu`` of a slip."""
     one, two = pair
     v = plus(velocity(one), velocity(two), mpf(-1))

@@ -4,7 +4,7 @@ from mpmath import exp, mpc, mpf
 from support.truth.air import Edge, part_from, rebound
 from support.truth.cushions import han, mathavan
 from support.truth.flight import air_friction
-from support.truth.model import Ball, RealWorld, World, dot, unit
+from support.truth.model import Ball, RealWorld, World, dot, real, unit
 from support.truth.motion import classify
 from support.truth.octagon import Line
 from support.truth.rails import Wall
@@ -69,7 +69,7 @@ def apply_friction(world: World, one: Ball, two: Ball, direction: Space, impulse
 def bounce(world: World, ball: Ball, line: Line | Wall | Edge) -> None:
     """A cushion, by its law; ``factors``: parallel 0.9, perpendicular -0.6, all spin x 0.1."""
     if isinstance(line, Edge):
-        rebound(world, ball, line, ball.since)
+        rebound(real(world), ball, line, ball.since)
         return
     if isinstance(world, RealWorld) and world.cushion != "factors":
         {"han": han, "mathavan": mathavan}[world.cushion](world, ball, line.inward)
@@ -84,7 +84,7 @@ def bounce(world: World, ball: Ball, line: Line | Wall | Edge) -> None:
 def settle(world: World, ball: Ball, line: Line | Wall | Edge) -> None:
     """A cushion reached too slowly to bounce: no velocity across it, no spin component along it; in the air parted."""
     if isinstance(line, Edge):
-        part_from(world, ball, line, mpf("1.0625"))
+        part_from(real(world), ball, line, mpf("1.0625"))
         return
     along = 1j * line.inward
     ball.velocity -= dot(ball.velocity, line.inward) * line.inward

@@ -132,6 +132,12 @@ class RealWorld(World):
         return mp.sqrt(self.radius**2 - (self.nose_height - self.radius) ** 2)
 
 
+def real(world: World) -> RealWorld:
+    """The world of a ball in the air: only tables with jaws fly."""
+    assert isinstance(world, RealWorld)
+    return world
+
+
 def dot(a: mpc, b: mpc) -> mpf:
     return a.real * b.real + a.imag * b.imag
 
