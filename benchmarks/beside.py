@@ -31,13 +31,13 @@ UNITS = {
 """Of every work, what is done at a time: games, pairs of games, rounds or steps; before, and now."""
 
 
-def measure(full: bool, works: tuple[str, ...] = tuple(UNITS)) -> Tables:
+def measure(full: bool) -> Tables:
     """A row for each work."""
     with tempfile.TemporaryDirectory() as name:
         base = Path(name) / "base"
         subprocess.run(["git", "worktree", "add", "--detach", base, BASE], cwd=ROOT, check=True)
         try:
-            return {"beside": list(rows(base, works, 15 if full else 3))}
+            return {"beside": list(rows(base, tuple(UNITS), 15 if full else 3))}
         finally:
             subprocess.run(["git", "worktree", "remove", "--force", base], cwd=ROOT, check=True)
 
