@@ -50,7 +50,7 @@ def let_go(table: physics.Table, launches: Mapping[int, Launch], event_limit: in
         motion[ball] = launch.motion
         heights[ball], rising[ball] = launch.height, launch.velocity_z
     return physics.resume(
-        table, physics.Snapshot(0.0, positions, velocities, spins, motion, heights, rising), **options
+        table, physics.Snapshot(0.0, positions, velocities, spins, motion, heights, rising), event_limit=event_limit
     )
 
 
