@@ -102,7 +102,7 @@ class BallStateView(Message):
     position: tuple[Number, Number]
     velocity: tuple[Number, Number]
     spin: tuple[Number, Number, Number]
-    motion: Literal["stationary", "spinning", "sliding", "rolling", "pocketed", "absent"]
+    motion: Literal["stationary", "spinning", "sliding", "rolling", "pocketed", "absent", "flying", "driven_off"]
 
 
 class EventView(Message):
