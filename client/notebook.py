@@ -41,12 +41,12 @@ def match_line(match: "LocalMatch") -> str:
     return f"{match.players[0]} {first:g} : {second:g} {match.players[1]}, seed {match.seed}"
 
 
-def _scenes(game: "PlayedGame") -> Iterator["pictures.Scene"]:
+def _scenes(game: "PlayedGame") -> Iterator["pictures.ReplayShot"]:
     from physics import simulate
-    from pictures import Scene
+    from pictures import ReplayShot
 
     table = game.header.terms.rules.table
     for stroke in game.strokes:
         if stroke.shot is not None:  # simulated again: a game need not keep the events of its strokes
             words = SEAT.sub(lambda found: game.header.players[int(found[1])], stroke.ruling.words)
-            yield Scene(simulate(table, stroke.before, stroke.shot), words)
+            yield ReplayShot(simulate(table, stroke.before, stroke.shot), words)

@@ -100,4 +100,4 @@ def _load(module: str) -> Any:
 def say_if_compiled_now(folder: Path | None, module: str, what: str) -> None:
     """A line on standard error where loading a module compiles it: nothing of it is in the folder yet."""
     if folder is None or not any(folder.rglob(f"{module}.*.nbi")):
-        sys.stderr.write(f"pooliad: compiling {what} for this processor, once (10 to 60 s) ...\n")
+        sys.stderr.write(f"pooliad: compiling {what} for this processor, once; this takes a minute or more ...\n")

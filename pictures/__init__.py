@@ -6,7 +6,7 @@ and no second file, and two on one page do not disturb each other. ``svg`` and `
 """
 
 from pictures.picture import described, pixels, png, svg
-from pictures.replay import Scene, html
+from pictures.replay import ReplayShot, html
 from pictures.theme import THEMES
 
-__all__ = ["THEMES", "Scene", "described", "html", "pixels", "png", "svg"]
+__all__ = ["THEMES", "ReplayShot", "described", "html", "pixels", "png", "svg"]

@@ -5,8 +5,8 @@ import math
 from physics.constants import BALL_RADIUS
 from pictures.digits import written
 from pictures.elements import Point, circle, element, place
+from pictures.projection import MM
 from pictures.theme import IVORY, Theme, colour_of, ink_of
-from pictures.view import MM
 
 RADIUS = BALL_RADIUS * MM
 

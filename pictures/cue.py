@@ -5,7 +5,7 @@ import math
 from physics import Shot
 from physics.constants import BALL_RADIUS
 from pictures.elements import Point, element, polyline
-from pictures.view import View
+from pictures.projection import Projection
 
 PARTS = ((0.0, 1.0, 9.0, "#d9b27c"), (0.55, 1.0, 13.0, "#3b2618"), (0.0, 0.012, 10.0, "#6fb7e8"))
 """From, to (shares of the length), width (mm) and colour: shaft, butt, tip."""
@@ -14,7 +14,7 @@ GAP = 0.012
 """Between tip and ball, m."""
 
 
-def cue(view: View, at: Point, shot: Shot) -> str:
+def cue(view: Projection, at: Point, shot: Shot) -> str:
     """The cue of ``shot``, seen from above: ``a`` moves it aside, ``theta`` shortens it."""
     phi, theta = math.radians(math.fmod(shot.phi, 360.0)), math.radians(shot.theta)
     aim, aside = (math.cos(phi), math.sin(phi)), (math.sin(phi), -math.cos(phi))

@@ -4,8 +4,8 @@ import math
 
 from physics import Jaw, Pocket, Table
 from pictures.elements import Point, circle, element, number, place, polyline
+from pictures.projection import MM, Projection
 from pictures.theme import Theme
-from pictures.view import MM, View
 
 CUSHION = 0.0508
 """Width of a cushion where the table does not say, m."""
@@ -20,7 +20,7 @@ SPOT, SIGHT = 7.0, 6.5
 """Radii of a spot and of a sight, mm."""
 
 
-def ground(view: View, theme: Theme) -> str:
+def ground(view: Projection, theme: Theme) -> str:
     """The table."""
     table = view.table
     width, height = view.size
@@ -56,7 +56,7 @@ def nearest_hole(table: Table, place: Point) -> Point:
     return min((hole_of(pocket)[0] for pocket in table.pockets), key=lambda centre: math.dist(centre, place))
 
 
-def _area(view: View, corners: list[Point]) -> str:
+def _area(view: Projection, corners: list[Point]) -> str:
     return polyline([view.at(corner) for corner in corners]) + "Z"
 
 
@@ -80,7 +80,7 @@ def _cloth(table: Table) -> list[Point]:
     ]
 
 
-def _cushions(view: View, theme: Theme) -> list[str]:
+def _cushions(view: Projection, theme: Theme) -> list[str]:
     """The six cushions, seen from above; each goes from one mouth to the next."""
     pockets = view.table.pockets
     paths = []
@@ -93,19 +93,19 @@ def _cushions(view: View, theme: Theme) -> list[str]:
     return [element("path", d=path, stroke_width=1.5, **look) for path in paths]
 
 
-def _out_of_mouth(view: View, jaw: Jaw) -> str:
+def _out_of_mouth(view: Projection, jaw: Jaw) -> str:
     """A jaw's outline from the end of its facing to its nose."""
     facing = polyline([view.at(jaw.facing_end), view.at(jaw.facing_start)]).removeprefix("M")
     return facing + _horn(view, jaw, jaw.facing_start, jaw.nose_end)
 
 
-def _into_mouth(view: View, jaw: Jaw) -> str:
+def _into_mouth(view: Projection, jaw: Jaw) -> str:
     """A jaw's outline from its nose to the end of its facing."""
     horn = _horn(view, jaw, jaw.nose_end, jaw.facing_start)
     return f"{place(view.at(jaw.nose_end))}{horn}L{place(view.at(jaw.facing_end))}"
 
 
-def _horn(view: View, jaw: Jaw, start: Point, end: Point) -> str:
+def _horn(view: Projection, jaw: Jaw, start: Point, end: Point) -> str:
     """The arc of a horn."""
     (x, y), (from_x, from_y), (to_x, to_y) = map(view.at, (jaw.horn_centre, start, end))
     sweep = int((from_x - x) * (to_y - y) - (from_y - y) * (to_x - x) > 0.0)
@@ -129,7 +129,7 @@ def _straight_cushion(table: Table, here: Pocket, there: Pocket) -> list[Point]:
     return [behind(first, last, here), first, last, behind(last, first, there)]
 
 
-def _sights(view: View) -> list[Point]:
+def _sights(view: Projection) -> list[Point]:
     """The marks on the rail: quarters of the width, eighths of the length, none at a pocket."""
     table = view.table
     behind = 0.5 * (view.frame + _wide(table))
@@ -138,7 +138,7 @@ def _sights(view: View) -> list[Point]:
     return ends + sides
 
 
-def _marks(view: View, theme: Theme) -> list[str]:
+def _marks(view: Projection, theme: Theme) -> list[str]:
     """Head string and foot spot."""
     table = view.table
     line = polyline([view.at((x, table.head_string)) for x in (0.0, table.width)])

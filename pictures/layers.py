@@ -7,9 +7,9 @@ from physics.constants import N_BALLS, N_POCKETS
 from pictures.balls import ball, ghost, ring
 from pictures.elements import Point, circle, element, place
 from pictures.ground import hole_of, nearest_hole
+from pictures.projection import MM, Projection
 from pictures.theme import Theme, colour_of
 from pictures.tracks import Track, tracks
-from pictures.view import MM, View
 
 FAINT = 0.6
 """Opacity of a ball where a shot has left it from."""
@@ -31,20 +31,20 @@ def refuse_call(call: Call) -> None:
             raise ValueError(f"call.{name} = {value!r}: must be an integer from {least} to {most}")
 
 
-def called_pocket(view: View, theme: Theme, pocket: int) -> str:
+def called_pocket(view: Projection, theme: Theme, pocket: int) -> str:
     """A ring round a hole."""
     centre, radius = hole_of(view.table.pockets[pocket])
     return circle(view.at(centre), radius * MM + 6.0, fill="none", stroke=theme.call, stroke_width=8.0)
 
 
-def position(view: View, theme: Theme, state: TableState, called: int | None) -> list[str]:
+def position(view: Projection, theme: Theme, state: TableState, called: int | None) -> list[str]:
     """Balls at rest."""
     places = {number: view.at((x, y)) for number in state.balls for x, y in [state.positions[number].tolist()]}
     drawn = [ball(number, at, theme) for number, at in places.items()]
     return [*drawn, *([ring(places[called], theme)] if called in places else [])]
 
 
-def stroke(view: View, theme: Theme, result: Result, called: int | None) -> list[str]:
+def stroke(view: Projection, theme: Theme, result: Result, called: int | None) -> list[str]:
     """The balls faint where they were, their paths, the ghost ball, and the balls where they lie in the end."""
     all_tracks = tracks(result)
     moved = [track for track in all_tracks if track.moves]
@@ -61,7 +61,7 @@ def stroke(view: View, theme: Theme, result: Result, called: int | None) -> list
     ]
 
 
-def spread(view: View, batch: Batch) -> list[str]:
+def spread(view: Projection, batch: Batch) -> list[str]:
     """A dot for every ball where one of many strokes leaves it, those that none of them moved left out."""
     groups = []
     for number in range(N_BALLS):
@@ -81,7 +81,7 @@ def _ghost_place(result: Result) -> Point | None:
     return None
 
 
-def _path(view: View, theme: Theme, track: Track) -> str:
+def _path(view: Projection, theme: Theme, track: Track) -> str:
     """A ball's way; a pocketed one's ends in the hole."""
     text = "M" + place(view.at(track.start))
     for piece in track.pieces:

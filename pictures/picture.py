@@ -12,8 +12,8 @@ from pictures.cue import cue
 from pictures.elements import element, number
 from pictures.ground import ground
 from pictures.layers import Call, called_pocket, position, refuse_call, spread, stroke
+from pictures.projection import Projection
 from pictures.theme import theme_of
-from pictures.view import View
 
 Shown = Table | TableState | Result
 
@@ -55,7 +55,7 @@ def svg(
         raise TypeError(f"shown = {shown!r}: must be a Table, a TableState or a Result")
     if width is not None and (isinstance(width, bool) or not isinstance(width, int) or width < 1):
         raise ValueError(f"width = {width!r}: must be a positive number of pixels")
-    view, look = View(_table_of(shown, table), upright), theme_of(theme)
+    view, look = Projection(_table_of(shown, table), upright), theme_of(theme)
     layers = [ground(view, look)]
     if call is not None:
         refuse_call(call)

@@ -12,13 +12,13 @@ from physics.constants import N_BALLS
 from pictures.balls import ball
 from pictures.elements import Point, element, number
 from pictures.ground import ground, nearest_hole
+from pictures.projection import Projection
 from pictures.theme import Theme, theme_of
 from pictures.tracks import Track, tracks
-from pictures.view import View
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class ReplayShot:
     """One shot of a replay.
 
     Attributes:
@@ -30,7 +30,7 @@ class Scene:
     caption: str = ""
 
 
-def html(scenes: Result | Scene | Sequence[Scene], *, title: str = "Replay", theme: str = "dark") -> str:
+def html(scenes: Result | ReplayShot | Sequence[ReplayShot], *, title: str = "Replay", theme: str = "dark") -> str:
     """A page that plays the shots one after another; it loads nothing, so it can be sent as a file.
 
     Each ball moves along its exact path at its exact speed. Keys: space plays and pauses, left and right go from shot
@@ -45,7 +45,7 @@ def html(scenes: Result | Scene | Sequence[Scene], *, title: str = "Replay", the
         ValueError: no shots, shots on different tables, no such theme, a result without its events.
     """
     shown = _scenes(scenes)
-    view, look = View(shown[0].result.table), theme_of(theme)
+    view, look = Projection(shown[0].result.table), theme_of(theme)
     data = json.dumps([_scene(view, scene) for scene in shown], separators=(",", ":"), allow_nan=False)
     page = files("pictures").joinpath("replay.html").read_text(encoding="utf-8")
     parts = {
@@ -60,11 +60,11 @@ def html(scenes: Result | Scene | Sequence[Scene], *, title: str = "Replay", the
     return page
 
 
-def _scenes(scenes: Result | Scene | Sequence[Scene]) -> list[Scene]:
+def _scenes(scenes: Result | ReplayShot | Sequence[ReplayShot]) -> list[ReplayShot]:
     """The shots; raises ValueError where they cannot be one replay."""
     if isinstance(scenes, Result):
-        return [Scene(scenes)]
-    shown = [scenes] if isinstance(scenes, Scene) else list(scenes)
+        return [ReplayShot(scenes)]
+    shown = [scenes] if isinstance(scenes, ReplayShot) else list(scenes)
     if not shown:
         raise ValueError("scenes = []: must be at least one shot")
     tables = {scene.result.table for scene in shown}
@@ -73,7 +73,7 @@ def _scenes(scenes: Result | Scene | Sequence[Scene]) -> list[Scene]:
     return shown
 
 
-def _table_picture(view: View, theme: Theme) -> str:
+def _table_picture(view: Projection, theme: Theme) -> str:
     """The table with all sixteen balls; the script puts them in their places."""
     across, down = view.size
     balls = [
@@ -85,14 +85,14 @@ def _table_picture(view: View, theme: Theme) -> str:
     )
 
 
-def _scene(view: View, scene: Scene) -> dict[str, Any]:
+def _scene(view: Projection, scene: ReplayShot) -> dict[str, Any]:
     """What the script needs of one shot; places in the picture's units."""
     result = scene.result
     balls = {track.ball: _track(view, track) for track in tracks(result)}
     return {"caption": scene.caption, "duration": result.duration, "balls": balls}
 
 
-def _track(view: View, track: Track) -> dict[str, Any]:
+def _track(view: Projection, track: Track) -> dict[str, Any]:
     """Pieces as [begins, ends, x0, y0, x1, y1, x2, y2], and the hole that the ball drops into."""
     pieces = [
         [round(piece.begins, 6), round(piece.ends, 6), *_rounded(view, piece.start, piece.control, piece.end)]
@@ -104,5 +104,5 @@ def _track(view: View, track: Track) -> dict[str, Any]:
     return {"pieces": pieces, "drops": drops}
 
 
-def _rounded(view: View, *points: Point) -> list[float]:
+def _rounded(view: Projection, *points: Point) -> list[float]:
     return [round(value, 2) for point in points for value in view.at(point)]

@@ -1,6 +1,7 @@
 """Policy of the whole test suite: helpers in ``support`` are importable, which absences may be skipped, hypothesis."""
 
 import os
+import subprocess
 import sys
 from collections.abc import Generator
 from pathlib import Path
@@ -13,6 +14,16 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 settings.register_profile("pooliad", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("pooliad")
+
+
+KERNELS = ("from physics.engine import kernels; kernels()", "from physics.engine import kernels; kernels(jaws=True)")
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Compile the kernels once, both sets at a time, before tests and workers that would all wait for them."""
+    if not hasattr(session.config, "workerinput") and not session.config.option.collectonly:
+        for compiler in [subprocess.Popen([sys.executable, "-c", program]) for program in KERNELS]:
+            compiler.wait()
 
 
 @pytest.hookimpl(wrapper=True)

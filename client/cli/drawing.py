@@ -19,7 +19,7 @@ def draw(file: Path, result: "Result", shot: "Shot | None", call: tuple[int, int
 
     ending = file.suffix.lower()
     if ending == ".html":
-        write(file, pictures.html(pictures.Scene(result, title), title=title).encode())
+        write(file, pictures.html(pictures.ReplayShot(result, title), title=title).encode())
     elif ending == ".svg":
         write(file, pictures.svg(result, shot=shot, call=call, title=title).encode())
     elif ending == ".png":

@@ -81,7 +81,7 @@ def page(
     with _whole(file):
         players = record.header["players"]
         strokes = [entry for entry in record.entries if entry["stroke"] is not None]
-        scenes = [pictures.Scene(played(record, entry)[0], _sentence(entry, players)) for entry in strokes]
+        scenes = [pictures.ReplayShot(played(record, entry)[0], _sentence(entry, players)) for entry in strokes]
     if not scenes:
         fail(f"{file}: nothing was played in this game")
     write(output, pictures.html(scenes, title=f"{players[0]} against {players[1]}").encode())

@@ -21,7 +21,7 @@ from support.require import require
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 ORGANISER = "organiser-of-the-browser-tests-0123456789"
-PATIENCE = 300.0
+PATIENCE = 900.0
 """Seconds: after a change of the kernels the first server compiles them before it is ready."""
 A_LOADED_MACHINE = 60.0
 """Seconds that a page may take for anything."""

@@ -7,7 +7,7 @@ import pytest
 
 import pictures
 from physics import Shot, Table, rack, simulate
-from pictures.view import View
+from pictures.projection import Projection
 
 CHOOSE = """time => {
   const slider = document.getElementById("time");
@@ -22,7 +22,7 @@ def scenes():
     table = Table.nine_foot()
     first = simulate(table, rack(table, seed=5), Shot(9.0, 269.0, 4.0, 0.0, 2.0))
     second = simulate(table, first.final.removed(), Shot(2.0, 100.0, 0.0))
-    return [pictures.Scene(first, "the break"), pictures.Scene(second, "</script><b>& a second")]
+    return [pictures.ReplayShot(first, "the break"), pictures.ReplayShot(second, "</script><b>& a second")]
 
 
 def test_a_replay_plays_from_a_file(scenes, browser, tmp_path):
@@ -38,7 +38,7 @@ def test_a_replay_plays_from_a_file(scenes, browser, tmp_path):
     assert page.title() == "A <game>"
     assert page.inner_text("#caption") == "1 of 2: the break"
     result = scenes[0].result
-    view = View(result.table)
+    view = Projection(result.table)
     for time in (0.0, 0.37, 1.0):
         page.evaluate(CHOOSE, time)
         places = result.at(time).positions
@@ -61,7 +61,7 @@ def test_a_replay_plays_from_a_file(scenes, browser, tmp_path):
 def test_a_replay_is_of_one_table(scenes):
     other = simulate(Table.olympiad(), rack(Table.olympiad(), seed=1), Shot(3.0, 270.0))
     with pytest.raises(ValueError, match="2 tables"):
-        pictures.html([*scenes, pictures.Scene(other)])
+        pictures.html([*scenes, pictures.ReplayShot(other)])
     with pytest.raises(ValueError, match=re.escape("scenes = []: must be at least one shot")):
         pictures.html([])
 

@@ -22,6 +22,11 @@ MATCH = client.MatchRequest(agents=("a", "b"), seed=MatchSeed.of(1).secret.hex()
 WITHOUT_METHOD = {
     ("get", "/v1/stream"): "an endless answer, for pages that follow all games; the SDK reads strokes by page",
     ("get", "/v1/games/{}/stream"): "the same for one game",
+    (
+        "get",
+        "/v1/games/{}/position.svg",
+    ): "for pages and previews, which have its address; `pictures.svg` draws it here",
+    ("get", "/v1/games/{}/shots/{}.svg"): "the same for a stroke",
     ("get", "/healthz"): "for whoever runs the server, not for whoever plays",
     ("get", "/readyz"): "the same",
     ("get", "/metrics"): "the same",

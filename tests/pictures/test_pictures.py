@@ -11,9 +11,9 @@ import pytest
 import pictures
 from physics import RealTable, Result, Shot, Table, TableState, min_elevation, rack, simulate, simulate_batch
 from physics.constants import BALL_RADIUS, N_BALLS
+from pictures.projection import MM, Projection
 from pictures.theme import BALLS, ink_of
 from pictures.tracks import tracks
-from pictures.view import MM, View
 
 SVG = "{http://www.w3.org/2000/svg}"
 TABLES = [Table.olympiad(), Table.nine_foot(), Table.seven_foot()]
@@ -44,7 +44,7 @@ def test_a_picture_is_one_well_formed_document_that_needs_nothing_else(table, th
 @pytest.mark.parametrize("table", TABLES, ids=lambda table: table.name)
 def test_a_picture_is_to_scale(table):
     """The bounds are those of rails; a ball is where its position says, as large as it is."""
-    view = View(table)
+    view = Projection(table)
     state = TableState.from_positions({5: (0.3, 0.9)})
     root = root_of(pictures.svg(state, table=table))
     width, height = map(float, root.attrib["viewBox"].split()[2:])
@@ -59,10 +59,10 @@ def test_a_picture_is_to_scale(table):
 def test_a_picture_is_turned_and_never_mirrored():
     """Three places that turn left in the table's frame turn left in either picture."""
     for upright in (False, True):
-        view = View(Table.olympiad(), upright)
+        view = Projection(Table.olympiad(), upright)
         (x0, y0), (x1, y1), (x2, y2) = map(view.at, ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))
         assert (x1 - x0) * (y2 - y0) - (y1 - y0) * (x2 - x0) < 0.0, "y grows downwards in a picture"
-    assert View(Table.olympiad()).at((0.5, 2.0))[0] < View(Table.olympiad()).at((0.5, 0.2))[0], (
+    assert Projection(Table.olympiad()).at((0.5, 2.0))[0] < Projection(Table.olympiad()).at((0.5, 0.2))[0], (
         "head string on the left"
     )
 
@@ -73,7 +73,7 @@ def test_jaws_are_drawn_where_they_are(name):
     table = Table.named(name).replace(horn_radius=0.012)
     assert isinstance(table, RealTable)
     text = pictures.svg(table)
-    view = View(table)
+    view = Projection(table)
     for pocket in table.pockets:
         for jaw in pocket.jaws:
             for point in (jaw.nose_end, jaw.facing_start, jaw.facing_end):
@@ -108,7 +108,7 @@ def test_a_pocketed_ball_leads_into_its_hole_and_is_not_drawn_at_the_end():
     (four,) = [track for track in tracks(result) if track.ball == 4]
     assert four.pocketed is not None
     centre = table.pockets[3].hole_centre
-    x, y = (f"{value:.1f}".removesuffix(".0") for value in View(table).at(centre))
+    x, y = (f"{value:.1f}".removesuffix(".0") for value in Projection(table).at(centre))
     assert f"L{x} {y}" in pictures.svg(result)
     numbers = pictures.svg(result).count("translate(")
     assert pictures.svg(result.final, table=table).count("translate(") < numbers

@@ -37,7 +37,7 @@ DATABASES = {
 }
 """The databases that a module's tests run on; SQLite unless told."""
 ORGANISER_TOKEN = secrets.token_urlsafe(32)
-PATIENCE = 150.0
+PATIENCE = 600.0
 """Seconds to wait for an answer: the first shot after a change of the kernels waits for their compiler."""
 
 _names = itertools.count()

@@ -27,6 +27,9 @@ LET_IN = {
     "GET /": PUBLIC,
     "GET /web/{name}": PUBLIC,
     "GET /v1/keys": PUBLIC,
+    "GET /v1/tables": PUBLIC,
+    "GET /v1/tables/{name}": PUBLIC,
+    "POST /v1/tables": PUBLIC,
     "POST /v1/matches/{match_id}/seed": PLAYERS,
     "POST /v1/agents": PUBLIC,
     "GET /v1/agents": PUBLIC,
@@ -57,7 +60,9 @@ LET_IN = {
     "GET /v1/games/{game_id}": PUBLIC,
     "GET /v1/games/{game_id}/clock": PUBLIC,
     "GET /v1/games/{game_id}/shots": PUBLIC,
+    "GET /v1/games/{game_id}/position.svg": PUBLIC,
     "GET /v1/games/{game_id}/record": PUBLIC,
+    "GET /v1/games/{game_id}/shots/{number}.svg": PUBLIC,
     "GET /v1/games/{game_id}/stream": PUBLIC,
     "GET /v1/stream": PUBLIC,
     "POST /v1/games/{game_id}/shots": PLAYERS,
@@ -140,6 +145,7 @@ def situation(server, new_table, made):
         "token_id": made["spare"]["id"],
         "tournament_id": event(table.organiser, table.players),
         "name": "page.js",
+        "number": 0,
         "agents": (mover.id, opponent.id),
     }
     tokens = {role: each["token"] for role, each in made.items()}

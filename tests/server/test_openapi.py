@@ -125,6 +125,8 @@ class Somewhere:
             caller = mover
         if path in ("/v1/turns", "/v1/agents/me"):
             caller = mover
+        if path.endswith("/{number}.svg"):
+            assert mover.act(view, self.break_shot | {"shot": SOFT}).status_code == 200
         if path.endswith("/record"):
             mover.post(f"/v1/games/{view['game']}/concede", version=view["version"])
         if path == "/v1/tournaments" and method == "post":
@@ -142,7 +144,7 @@ class Somewhere:
         token = {"name": "example", "scopes": ["read"]}
         token_id = table.organiser.post("/v1/tokens", token).json()["id"]
         ids = {"agent_id": agent, "match_id": match, "game_id": view["game"], "token_id": token_id}
-        address = path.format(**ids, tournament_id=event, name="nine_foot")
+        address = path.format(**ids, tournament_id=event, name="nine_foot", number=0)
         headers = {header["name"]: header["example"] for header in headers_of(operation)}
         if "If-Match" in headers:
             headers["If-Match"] = f'"{view["version"]}"'

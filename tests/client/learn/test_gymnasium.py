@@ -8,6 +8,7 @@ import gymnasium
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
+from support.require import require
 
 import client.learn
 from physics import Table
@@ -56,8 +57,9 @@ def test_what_can_be_drawn_is_said():
         client.learn.EightBallEnv(render_mode="human")
 
 
-@pytest.mark.skipif(find_spec("moviepy") is None, reason="moviepy, which RecordVideo needs, is not installed")
+@pytest.mark.long
 def test_a_game_becomes_a_video(tmp_path):
+    require(find_spec("moviepy") is not None, "moviepy, which RecordVideo asks for")
     env = gymnasium.wrappers.RecordVideo(gymnasium.make(NAME, render_mode="rgb_array"), str(tmp_path / "video"))
     env.reset(seed=3)
     for _ in range(3):

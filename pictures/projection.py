@@ -13,7 +13,7 @@ FRAME = 0.14
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class Projection:
     """A table to scale, never mirrored: lying, the head string on the left, or upright, the head string on top."""
 
     table: Table
