@@ -4,12 +4,15 @@ from numba import types
 
 from physics.kernels import layout as at
 from physics.kernels import tasks
+from physics.kernels.apart import load_apart
 from physics.kernels.compiling import row
 from physics.kernels.detect.contact import contact_time
 from physics.kernels.detect.edges_in_air import meets_ring
 from physics.kernels.entry import COUNTERS, FACTS, FLOAT, INTEGER, NONE, POCKETS, READ, WRITTEN, entry
 from physics.kernels.path import RingPath, SpacePath
 from physics.kernels.workspace import bare_real_workspace, real_workspace
+
+load_apart()
 
 
 @entry(NONE, READ, WRITTEN, READ, READ, WRITTEN, POCKETS, FACTS, WRITTEN, COUNTERS)

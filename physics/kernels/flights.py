@@ -1,6 +1,7 @@
 """How flights end: on the cloth, in a pocket, on a rail or beyond it. Old tables have nothing of it compiled."""
 
 from physics.kernels import layout as at
+from physics.kernels.apart import apart
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store, store_integer
 from physics.kernels.detect.mouths import NO_MOUTH
 from physics.kernels.detect.prediction import release
@@ -12,9 +13,10 @@ from physics.kernels.resolve.cloth import restate
 from physics.kernels.resolve.cluster import free_from_cushions, settle
 from physics.kernels.resolve.flight import fall_on_rail, meet_cloth, report_landing
 from physics.kernels.resolve.touching import bring, neighbours
-from physics.kernels.workspace import by_table
+from physics.kernels.workspace import RealWorkspace, by_table
 
 
+@apart(int, RealWorkspace, int, float)
 @kernel
 def land(s, i, time):
     """The flight of ball ``i`` ends, in a pocket or on the cloth; bit set of the balls to predict, or UNSETTLED."""
@@ -34,6 +36,7 @@ def land(s, i, time):
     return 1 << i
 
 
+@apart(int, RealWorkspace, int, float)
 @kernel
 def reach_rail(s, i, time):
     """Ball ``i`` falls on the top of a rail, or is beyond the outer edge; bit set of the balls still to predict.
@@ -49,6 +52,7 @@ def reach_rail(s, i, time):
     return 1 << i
 
 
+@apart(None, RealWorkspace, float)
 @kernel
 def take_off_perched(s, time):
     """Balls that others and a cushion hold up are off the table: they rest, and not on the cloth."""
@@ -61,6 +65,7 @@ def take_off_perched(s, time):
         drive_off(s, i, time)
 
 
+@apart(None, RealWorkspace, float)
 @kernel
 def bring_down(s, time):
     """At the end of a shot that is cut short: what is in the air is off the table."""

@@ -149,3 +149,27 @@ def test_compiling_is_announced_for_what_is_not_kept_yet(tmp_path, capsys):
     assert "compiling the physics of tables with jaws" in capsys.readouterr().err
     engine.say_if_compiled_now(None, "entries", "the physics")
     assert "compiling the physics for" in capsys.readouterr().err
+
+
+CALLED_APART = """
+import sys
+import llvmlite.binding as llvm
+from physics.engine import kernels
+from physics.kernels.apart import _APART
+kernels()
+assert not any(llvm.address_of_symbol(name) for name in _APART), "a table with straight mouths loads none of them"
+kernels(jaws=True)
+print(len(_APART), sum(llvm.address_of_symbol(name) != 0 for name in _APART))
+"""
+
+
+def test_kernels_apart_are_bound_by_name_and_the_old_tables_have_none():
+    done = subprocess.run(
+        [sys.executable, "-c", CALLED_APART],
+        env=os.environ | {"NUMBA_DISABLE_JIT": "0"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    known, bound = map(int, done.stdout.split())
+    assert known == bound > 10

@@ -8,6 +8,7 @@ near to is looked for over the whole path (docs/physics.md, eq. 47-50). Coordina
 import math
 
 from physics.kernels import layout as at
+from physics.kernels.apart import apart
 from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store_integer
 from physics.kernels.detect.boundary import Coming
 from physics.kernels.detect.edges_in_air import meets_edge, meets_ring
@@ -24,6 +25,7 @@ from physics.kernels.detect.mouths import (
 from physics.kernels.detect.rail_top import falls_to, from_hole, hole_radius, is_over_rail
 from physics.kernels.path import Path, RingPath, Rise, along
 from physics.kernels.tolerances import RAIL_CAP, TOUCH
+from physics.kernels.workspace import RealWorkspace
 
 SPARE = 1e-3
 """m. By so much more than they reach, mouths are looked at: more is only slower."""
@@ -35,6 +37,7 @@ def earlier(best, time, kind, number):
     return Coming(time, kind, number) if time < best.time else best
 
 
+@apart(Coming, RealWorkspace, int, int, Path, Rise, float, Coming)
 @kernel
 def meet_jaw_in_air(s, mouth, number, path, rise, lasts, best):
     """Jaw ``number``, before ``best``; ``path`` in its coordinates, ``rise`` above the nose."""
@@ -186,6 +189,7 @@ def meet_outer_edge(s, path, best):
     return earlier(best, t, at.LEAVE, 0)
 
 
+@apart(Coming, RealWorkspace, Path, Rise, float)
 @kernel
 def meet_in_air(s, path, height, lasts):
     """The first thing but balls and cloth that a flight meets within ``lasts``, counting from now; NOTHING if none.

@@ -8,15 +8,16 @@ changed; a partner that thereby loses its event looks again when that event woul
 import math
 
 from physics.kernels import layout as at
+from physics.kernels.apart import apart
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store, store_integer
 from physics.kernels.detect.air import meet_in_air
 from physics.kernels.detect.boundary import Coming, meet_octagon
 from physics.kernels.detect.contact import contact
 from physics.kernels.detect.mouths import meet_rails
 from physics.kernels.motion import moves
-from physics.kernels.path import in_space, path_of, rise_of, seen_from
+from physics.kernels.path import Path, in_space, path_of, rise_of, seen_from
 from physics.kernels.tolerances import TOUCH
-from physics.kernels.workspace import by_table
+from physics.kernels.workspace import RealWorkspace, by_table
 
 
 @small_kernel
@@ -77,6 +78,7 @@ def partners_on_cloth(s, _i, path, now, limit):
     return found
 
 
+@apart(int, RealWorkspace, int, Path, float, float)
 @kernel
 def partners_in_space(s, i, path, now, limit):
     """``partners`` where a ball flies: the same triangle in plan, for heights only ever add to a distance.
@@ -127,6 +129,7 @@ def meets_on_cloth(s, _i, j, path, now, lasts, limit):
     return contact(seen_from(path, path_of(s, j, now)), lasts, limit, 2.0 * load(s.p, at.P_RADIUS)).time
 
 
+@apart(float, RealWorkspace, int, int, Path, float, float, float)
 @kernel
 def meets_in_space(s, i, j, path, now, lasts, limit):
     """See ``time_to_meet``."""
@@ -195,6 +198,7 @@ def meet_partners(s, found, i, path, now, best):
     return best
 
 
+@apart(int, RealWorkspace, int, int, float)
 @kernel
 def predict(s, alive, i, now):
     """Find the next event of ball ``i`` at time ``now`` and, if it is a collision, make it its partner's too.

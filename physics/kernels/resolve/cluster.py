@@ -16,6 +16,7 @@ left alone meets at most once in REST_TIME: it ends.
 """
 
 from physics.kernels import layout as at
+from physics.kernels.apart import apart
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store_integer
 from physics.kernels.recording import note_contact, note_cushion, record
 from physics.kernels.resolve.ball_ball import approach, push_alone, touch_of
@@ -37,6 +38,7 @@ from physics.kernels.resolve.landing import count_partings, is_landing, landing_
 from physics.kernels.resolve.resting import energy, lay_still, part_pressed_pairs, scale_down
 from physics.kernels.resolve.touching import bring, gather, neighbours, neighbours_of_two, pair
 from physics.kernels.tolerances import ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION, STOP_BELOW
+from physics.kernels.workspace import RealWorkspace
 
 UNSETTLED = -1
 """Returned instead of a bit set when ROUND_LIMIT was reached."""
@@ -149,6 +151,7 @@ def calm(s, members, allowed, in_air, quiet, time):
         rest &= rest - 1
 
 
+@apart(int, RealWorkspace, int, float)
 @kernel
 def settle_cluster(s, i, time):
     """``settle`` in full, round by round."""
@@ -228,6 +231,7 @@ def meet_ball_alone(s, i, j, time):
     return -approach(s, touch) > load(s.p, at.P_SLIDE) * load(s.p, at.P_REST_TIME)
 
 
+@apart(int, RealWorkspace, int, int, float)
 @kernel
 def settle(s, i, j, time):
     """Resolve the touching cluster of ball ``i`` at ``time``; ``j``: the ball it meets there, or NOBODY.

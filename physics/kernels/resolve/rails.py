@@ -8,6 +8,7 @@ import math
 from typing import NamedTuple
 
 from physics.kernels import layout as at
+from physics.kernels.apart import apart
 from physics.kernels.compiling import kernel, load, load_integer, plain, small_kernel, store
 from physics.kernels.detect.jaws import from_facing
 from physics.kernels.detect.mouths import end_jaw, is_corner, jaw_at, rail_touched, signs_of, upper_jaw
@@ -26,6 +27,7 @@ from physics.kernels.resolve.rails_in_air import (
     touched_in_air,
 )
 from physics.kernels.tolerances import ROUNDING_ACROSS
+from physics.kernels.workspace import RealWorkspace
 
 
 class Wall(NamedTuple):
@@ -193,6 +195,7 @@ def thrown(s, wall, v, w):
     return pressed_up(s, -vz) if vz < 0.0 else vz
 
 
+@apart(None, RealWorkspace, int, int)
 @kernel
 def rebound(s, i, number):
     """A collision with a cushion or jaw, by the table's law; in the air by the impact law."""
