@@ -22,6 +22,9 @@ INTENDED = {"v": 0.5, "phi": 2.0, "theta": 0.5, "a": 3.0, "b": 3.0}
 UNKNOWN = {"v": 3.0, "phi": 30.0, "theta": 1.0, "a": 8.0, "b": 8.0}
 """The same about the first guess, where nothing is known; places and times of strikes have those below."""
 PLACE_SIGMA, STRIKE_SIGMA = 0.05, 0.1
+TOUCHING_SQUARED = (2.0 * BALL_RADIUS) ** 2
+MOST_PARTINGS = 50
+"""Rounds that part overlapping balls: a rack of 15 needs several."""
 MEETINGS = (
     *(EventKind.BALL_COLLISION, EventKind.RAIL_COLLISION, EventKind.POCKET_COLLISION, EventKind.JAW_COLLISION),
     *(EventKind.RAIL_TOP, EventKind.OFF_TABLE),
@@ -99,8 +102,7 @@ class ShotModel:
         if a * a + b * b > 0.9e6 * BALL_RADIUS * BALL_RADIUS:
             return None
         try:
-            state = TableState.from_positions(placed(table, positions))
-            result = simulate(table, state, Shot(v, phi, theta, a, b))
+            result = simulate(table, TableState.trusted(placed(table, positions)), Shot(v, phi, theta, a, b))
         except InvalidState:
             return None
         return result if result.status is Status.AT_REST else None
@@ -122,9 +124,11 @@ class ShotModel:
         if np.isnan(seen).any():
             seen = self._filled(result, seen)
         off = (seen - self.shot.places) / self.sigma
-        rows = self._seen_high
-        high = np.nan_to_num(heights[self._which[rows], self.shot.balls[rows]]) - self.shot.heights[rows]
         prior = (nuisances - self.means) / self.sigmas
+        rows = self._seen_high
+        if len(rows) == 0:
+            return np.concatenate((off.ravel(), prior))
+        high = np.nan_to_num(heights[self._which[rows], self.shot.balls[rows]]) - self.shot.heights[rows]
         return np.concatenate((off.ravel(), high / self.sigma, prior))
 
     def _filled(self, result: Result, seen: Floats) -> Floats:
@@ -157,19 +161,24 @@ class ShotModel:
 
 def placed(table: Table, positions: Floats) -> Floats:
     """The nearest places that can be: overlapping balls moved apart evenly, balls beyond a cushion put at it."""
-    positions = positions.copy()
-    balls = np.flatnonzero(~np.isnan(positions[:, 0]))
-    for first, second in zip(*np.triu_indices(len(balls), 1), strict=True):
-        one, two = balls[first], balls[second]
-        apart = positions[two] - positions[one]
-        distance = float(np.hypot(*apart))
-        if 0.0 < distance < 2.0 * BALL_RADIUS:
-            shift = (BALL_RADIUS / distance - 0.5) * (1.0 + 1e-12) * apart
-            positions[one] -= shift
-            positions[two] += shift
+    here = [(ball, x, y) for ball, (x, y) in enumerate(positions.tolist()) if x == x]
+    for _ in range(MOST_PARTINGS):
+        apart = True
+        for first, (one, x1, y1) in enumerate(here):
+            for second in range(first + 1, len(here)):
+                two, x2, y2 = here[second]
+                across, along = x2 - x1, y2 - y1
+                square = across * across + along * along
+                if 0.0 < square < TOUCHING_SQUARED:
+                    shift = (1.0 + 1e-9) * BALL_RADIUS / square**0.5 - 0.5
+                    x1, y1 = x1 - shift * across, y1 - shift * along
+                    here[first], here[second] = (one, x1, y1), (two, x2 + shift * across, y2 + shift * along)
+                    apart = False
+        if apart:
+            break
     reach = getattr(table, "contact_distance", BALL_RADIUS)
-    for ball in balls.tolist():
-        x, y = positions[ball].tolist()
+    for ball, x, y in here:
         if not table.contains(x, y):
-            positions[ball] = np.clip((x, y), reach, (table.width - reach, table.length - reach))
+            x, y = min(max(x, reach), table.width - reach), min(max(y, reach), table.length - reach)
+        positions[ball] = x, y
     return positions

@@ -21,6 +21,8 @@ FOLLOWED = 5.0
 """Root mean square of residuals, in standard deviations, up to which the model follows the paths."""
 FOLLOWED_METRES = 3e-3
 """The same where the noise is smaller: parameters are not known yet."""
+NEAR, NEAR_METRES = 25.0, 0.025
+"""The same of a whole path that the model comes so near to that it is matched at once."""
 MILD = 4.0
 """A shot whose root mean square is above this counts less in a stage, so that one in a wrong order moves nobody."""
 MOST_ROUNDS = 14
@@ -28,8 +30,13 @@ PATIENCE = 2
 """Rounds without progress before a shot is given up."""
 SPREADS = (2.0, 6.0)
 """How far starts are drawn, in standard deviations of the nuisances; every second time the second."""
-COARSE, COARSE_EVALUATIONS = 1e-3, 4
-FINE, FINE_EVALUATIONS = 1e-8, 30
+CAUGHT = 0.5
+"""Fall of the cost, in standard deviations squared, that slopes may promise at a smooth minimum."""
+BADLY = 2.5
+"""Standard deviations of a shot's cost above what noise alone gives, beyond which another order is looked for."""
+MOST_RELEASES = 3
+COARSE_STEPS, FINE_STEPS = 10, 40
+FINE, FINE_EVALUATIONS = 1e-6, 8
 
 Observer = Callable[[str, float], None]
 """Told what is being done, and which part of all is done, 0 to 1."""
@@ -101,18 +108,19 @@ class StagedShot:
         return self.root_mean_square(fit, weights) < max(FOLLOWED, FOLLOWED_METRES / self.model.sigma)
 
     def extend(self, table: Table) -> None:
-        """Match everything if the model follows, else up to one meeting further."""
+        """Match everything if the model is near, else up to one meeting further."""
         self._before = self.member.fit, self.horizon
         whole = self.weights(np.inf)
-        fit = fit_shot(self.model, table, self.member.fit.nuisances, whole, steps=6)
-        if fit is not None and self.follows(fit, whole):
+        nuisances = self.member.fit.nuisances
+        found = self.model.residuals(table, nuisances)
+        if found is None:
+            return
+        fit = ShotFit(nuisances, whole * found, self.member.fit.slopes)
+        if self.root_mean_square(fit, whole) < max(NEAR, NEAR_METRES / self.model.sigma):
             self._take(fit, np.inf)
             return
-        horizon = self._meeting_after(table, self.member.fit.nuisances, self.horizon)
-        weights = self.weights(horizon)
-        fit = fit_shot(self.model, table, self.member.fit.nuisances, weights, steps=6)
-        if fit is not None:
-            self._take(fit, horizon)
+        horizon = self._meeting_after(table, nuisances, self.horizon)
+        self._take(ShotFit(nuisances, self.weights(horizon) * found, self.member.fit.slopes), horizon)
 
     def _take(self, fit: ShotFit, horizon: float) -> None:
         """The weight of a shot that is off is lowered for all its rows."""
@@ -125,7 +133,7 @@ class StagedShot:
     def judge(self, table: Table, rng: np.random.Generator) -> None:
         """After the parameters moved: is it followed up to the horizon? If not, search; else step back."""
         weights = self.weights(self.horizon)
-        fit = fit_shot(self.model, table, self.member.fit.nuisances, weights, steps=4)
+        fit = fit_shot(self.model, table, self.member.fit.nuisances, weights, steps=3)
         if fit is None or not self.follows(fit, weights):
             about, horizon = self._before
             found = search_shot(self.model, table, about, weights, SPREADS[self._failed % len(SPREADS)], rng)
@@ -138,6 +146,42 @@ class StagedShot:
                 return
         self._failed = 0
         self._take(fit, self.horizon)
+
+    def silence(self) -> None:
+        """Let none of its samples count."""
+        weights = self.member.weights.copy()
+        weights[: self.model.n_samples] = 0.0
+        fit = self.member.fit
+        still = (weights > 0.0).astype(float)
+        self.member.weights = weights
+        self.member.fit = ShotFit(fit.nuisances, still * fit.residuals, still[:, None] * fit.slopes)
+
+    def look_again(self, table: Table, before: ShotFit, weights: Floats, rng: np.random.Generator) -> None:
+        """Count again, from the best of several starts at these parameters; the whole of it if the model follows that."""
+        whole = self.weights(np.inf)
+        best = self._best(table, before, whole, rng)
+        if self.follows(best, whole):
+            self.horizon, self.member.weights, self.member.fit = np.inf, whole, best
+        else:
+            self.member.weights, self.member.fit = weights, self._best(table, before, weights, rng)
+
+    def _best(self, table: Table, before: ShotFit, weights: Floats, rng: np.random.Generator) -> ShotFit:
+        found = [fit_shot(self.model, table, before.nuisances, weights)]
+        found += [search_shot(self.model, table, before, weights, spread, rng) for spread in SPREADS]
+        residuals = np.full(len(weights), 1e3)
+        worst = ShotFit(before.nuisances, residuals, before.slopes)
+        return min((fit for fit in found if fit is not None), key=lambda fit: fit.cost, default=worst)
+
+    @property
+    def counted(self) -> int:
+        """Rows of samples that count."""
+        return int(np.sum(self.member.weights[: self.model.n_samples] > 0.0))
+
+    @property
+    def excess(self) -> float:
+        """By how many of its own standard deviations the cost is above what noise alone gives."""
+        square = self.root_mean_square(self.member.fit, self.member.weights) ** 2
+        return (square - 1.0) * float(np.sqrt(self.counted / 2.0))
 
     def settle(self, table: Table) -> None:
         """Full weight up to the horizon, for the last fit."""
@@ -164,11 +208,53 @@ def match(
         observer(f"{done} of {len(staged)} shots followed to their end", number / MOST_ROUNDS)
         for shot in waiting:
             shot.extend(joint.table)
-        joint.solve(COARSE_EVALUATIONS, COARSE)
+        joint.descend(COARSE_STEPS)
         for shot in waiting:
             shot.judge(joint.table, rng)
-    observer("all shots together", 0.9)
+    observer("all shots together", 0.8)
     for shot in staged:
         shot.settle(joint.table)
+    joint.descend(FINE_STEPS)
     joint.solve(FINE_EVALUATIONS, FINE)
+    for number in range(MOST_RELEASES):
+        caught = _caught(joint, staged)
+        observer(f"{len(caught)} shots caught between two orders of events", 0.85 + 0.05 * number)
+        if not caught or not _release(joint, caught, rng):
+            break
     return joint
+
+
+def _caught(joint: JointFit, staged: list[StagedShot]) -> list[StagedShot]:
+    """The worst of the shots that stop short, fit badly, or lie at an edge between two orders: a third of all at most."""
+    badness = [
+        np.inf if not shot.is_whole else max(shot.excess / BADLY, joint.promised(number) / CAUGHT)
+        for number, shot in enumerate(staged)
+    ]
+    worst = np.argsort(badness)[::-1][: max(1, len(staged) // 3)]
+    return [staged[number] for number in worst.tolist() if badness[number] > 1.0]
+
+
+def _release(joint: JointFit, caught: list[StagedShot], rng: np.random.Generator) -> bool:
+    """Fit the parameters to the other shots alone, find these their order there, and fit all; whether that is better.
+
+    A shot in a wrong order pulls the parameters to where it fits best; only without it is the right order better.
+    """
+    values, before = joint.values, (-sum(shot.counted for shot in caught), joint.cost)
+    kept = [(shot, shot.horizon, shot.member.fit, shot.member.weights) for shot in caught]
+    silent = [shot.member for shot in caught]
+    others = [(one, one.fit) for one in joint.members if one not in silent]
+    for shot in caught:
+        shot.silence()
+    joint.descend(FINE_STEPS)
+    for shot, _, fit, weights in kept:
+        shot.look_again(joint.table, fit, weights, rng)
+    joint.descend(FINE_STEPS)
+    joint.solve(FINE_EVALUATIONS, FINE)
+    if (-sum(shot.counted for shot in caught), joint.cost) < (before[0], before[1] - CAUGHT):
+        return True
+    for shot, horizon, fit, weights in kept:
+        shot.horizon, shot.member.fit, shot.member.weights = horizon, fit, weights
+    for member, fit in others:
+        member.fit = fit
+    joint.take(values)
+    return False
