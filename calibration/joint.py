@@ -252,7 +252,7 @@ class JointFit:
         return columns
 
     def descend(self, most: int) -> None:
-        """Damped steps of parameters and nuisances together, at most this many: from afar, where these valleys are curved.
+        """Damped steps of parameters and nuisances together, at most this many: from afar, along curved valleys.
 
         Levenberg and Marquardt's method with geodesic acceleration, each step's equations reduced shot by shot.
         """
@@ -277,7 +277,9 @@ class JointFit:
             ahead = self._moved(PROBE * shift, [PROBE * move for move in moves])
             if ahead is not None:
                 bends = [
-                    2.0 / PROBE * ((fit.residuals - before) / PROBE - member.fit.slopes @ move - part.by_parameters @ shift)
+                    2.0
+                    / PROBE
+                    * ((fit.residuals - before) / PROBE - member.fit.slopes @ move - part.by_parameters @ shift)
                     for fit, before, member, part, move in zip(
                         ahead, residuals, self.members, self.parts, moves, strict=True
                     )

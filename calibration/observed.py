@@ -108,7 +108,8 @@ def estimated_noise(shots: tuple[ObservedShot, ...]) -> float:
     differences = np.concatenate(found) if found else np.zeros(0)
     if len(differences) == 0:
         return 1e-3
-    return max(ROUGH_SIGMA, float(np.median(differences)) / (NORMAL_MEDIAN * SMOOTH_SPREAD**0.5))
+    spread: float = NORMAL_MEDIAN * SMOOTH_SPREAD**0.5
+    return max(ROUGH_SIGMA, float(np.median(differences)) / spread)
 
 
 def share_off(table: Table, shots: tuple[ObservedShot, ...], margin: float = 0.1) -> float:

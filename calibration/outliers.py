@@ -38,4 +38,5 @@ def _of_path(times: NDArray[np.float64], places: NDArray[np.float64], sigma: flo
         aside = np.hypot(*(places[here] - x0 - part * (x1 - x0)).T)
         off[kind, here] = aside / (allowed + ACCELERATION * span * span)
     least = off.min(axis=0)
-    return np.isfinite(least) & (least > 1.0)
+    found: NDArray[np.bool_] = np.isfinite(least) & (least > 1.0)
+    return found

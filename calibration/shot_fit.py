@@ -48,9 +48,7 @@ class ShotFit:
         return float(along @ along)
 
 
-def fit_shot(
-    model: ShotModel, table: Table, start: Floats, weights: Floats, steps: int = MOST_STEPS
-) -> ShotFit | None:
+def fit_shot(model: ShotModel, table: Table, start: Floats, weights: Floats, steps: int = MOST_STEPS) -> ShotFit | None:
     """Lower the cost from a start; ``weights`` (n + k,). None if the start cannot be played.
 
     Levenberg and Marquardt's method with geodesic acceleration (Transtrum & Sethna 2012): tip offset and speed trade

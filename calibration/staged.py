@@ -101,7 +101,7 @@ class StagedShot:
     def root_mean_square(self, fit: ShotFit, weights: Floats) -> float:
         """Of the samples that count, in standard deviations."""
         n = self.model.n_samples
-        return float(np.sqrt(np.sum(fit.residuals[:n] ** 2) / max(1.0, np.sum(weights[:n] > 0.0))))
+        return float(np.sqrt(np.sum(fit.residuals[:n] ** 2) / max(1, int(np.count_nonzero(weights[:n])))))
 
     def follows(self, fit: ShotFit, weights: Floats) -> bool:
         """Whether the model follows the paths."""
@@ -157,7 +157,7 @@ class StagedShot:
         self.member.fit = ShotFit(fit.nuisances, still * fit.residuals, still[:, None] * fit.slopes)
 
     def look_again(self, table: Table, before: ShotFit, weights: Floats, rng: np.random.Generator) -> None:
-        """Count again, from the best of several starts at these parameters; the whole of it if the model follows that."""
+        """Count again, from the best of several starts at these parameters; the whole if the model follows it."""
         whole = self.weights(np.inf)
         best = self._best(table, before, whole, rng)
         if self.follows(best, whole):
@@ -225,7 +225,7 @@ def match(
 
 
 def _caught(joint: JointFit, staged: list[StagedShot]) -> list[StagedShot]:
-    """The worst of the shots that stop short, fit badly, or lie at an edge between two orders: a third of all at most."""
+    """The worst of the shots that stop short, fit badly, or lie at an edge of two orders: a third of all at most."""
     badness = [
         np.inf if not shot.is_whole else max(shot.excess / BADLY, joint.promised(number) / CAUGHT)
         for number, shot in enumerate(staged)

@@ -27,7 +27,7 @@ def places_at_rest(shot: ObservedShot, ball: int, sigma: float) -> tuple[Floats,
 
 def first_velocity(times: Floats, places: Floats, sigma: float) -> Floats:
     """(2,) m/s at time 0 of a ball that starts then: of the longest run of first samples that one parabola fits."""
-    velocity = (places[-1] - places[0]) / (times[-1] - times[0])
+    velocity: Floats = (places[-1] - places[0]) / (times[-1] - times[0])
     for n in FIRST_SAMPLES:
         if n > len(times):
             break
