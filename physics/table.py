@@ -228,6 +228,11 @@ class Table:
         return dataclasses.asdict(self)
 
     @classmethod
+    def of(cls, table: "str | Mapping[str, Any]") -> "Table":
+        """A table by its name, or read as ``from_dict`` does; raises InvalidTable as that does."""
+        return cls.from_dict({"name": table} if isinstance(table, str) else table)
+
+    @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> "Table":
         """Read a table written by ``to_dict``; parameters left out have the named table's value.
 
