@@ -220,6 +220,11 @@ class Table:
         inside = side <= half_x + reach and end <= half_y + reach
         return inside and side + end <= half_x + half_y - self.corner_reach + reach
 
+    def __repr__(self) -> str:
+        named = self.named(self.name).to_dict()
+        changes = [f"{name}={value!r}" for name, value in self.to_dict().items() if value != named[name]]
+        return f"Table.{self.name}()" + (f".replace({', '.join(changes)})" if changes else "")
+
     def _repr_svg_(self) -> str:
         return notebook.picture(self)
 
