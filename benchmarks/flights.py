@@ -1,4 +1,5 @@
 """Hostile random shots on tables that fly, by class: does every one end, does energy fall, is nothing in anything?
+And what flight costs (``flight_costs``).
 
 Batches are judged by their ends and replayed by kernels without filter and broad phase (the same bits must come out);
 some shots are followed event by event. The stacked class starts from snapshots, for no shot begins so.
@@ -13,7 +14,7 @@ from typing import Any
 import numpy as np
 
 import physics
-from benchmarks import soundness, unfiltered, variants
+from benchmarks import flight_costs, soundness, unfiltered, variants
 from benchmarks.command import main
 from benchmarks.recording import Row, Tables
 from benchmarks.scenes import Floats
@@ -184,7 +185,7 @@ def replayed(jobs: list[tuple[str, int, int]]) -> list[unfiltered.Hashes]:
 
 
 def measure(full: bool) -> Tables:
-    """Every class; a million shots in all when ``full``."""
+    """Every class, a million shots in all when ``full``; what flight costs, and what its parameters change."""
     shots, traced = (143_000, 1_000) if full else (2_000, 60)
     kinds = [kind for kind in TABLES if kind != "stacked"]
     rows, failures = [], []
@@ -199,7 +200,12 @@ def measure(full: bool) -> Tables:
         rows[kinds.index(kind)]["other_bits_without_filter"] = differ
         if differ:
             failures.append({"class": kind, "row": -1, "fault": f"{differ} shots differ without the filter"})
-    return {"by_class": rows, "failures": failures[:MOST_FAILURES]}
+    return {
+        "by_class": rows,
+        "cost": list(flight_costs.costs(8_000 if full else 2_000, 31 if full else 15)),
+        "choices": list(flight_costs.choices(8_000 if full else 2_000)),
+        "failures": failures[:MOST_FAILURES],
+    }
 
 
 if __name__ == "__main__":

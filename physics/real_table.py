@@ -102,7 +102,7 @@ RANGES: Final[dict[str, Range]] = {
 }
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, repr=False)
 class RealTable(Table):
     """A pool table with jaws; ``Table.nine_foot()``, ``eight_foot()`` and ``seven_foot()`` are the named ones.
 
@@ -132,7 +132,7 @@ class RealTable(Table):
         e_cushion, mu_cushion: restitution and friction of the nose for ``han`` (0.85 and 0.2: choice) and ``mathavan``
             (0.98 and 0.14: Mathavan), each 0 to 1. Another law brings its own along.
         ball: the law of two balls: ``alciatore`` (friction falls with slip: TP A-14), ``consistent``, ``fastfiz``.
-        flight: whether balls leave the cloth: jump shots, hops, balls off the table. What follows counts only then.
+        flight: whether balls leave the cloth (True): jump shots, hops, balls off the table. What follows counts then.
         e_cloth: 0.5 (Alciatore), 0 to 0.9: restitution of a ball that lands. e_strike: 0.5 (choice: as e_cloth), 0 to
             0.9: of the cue ball that the strike drives into the cloth; the tip is still at it then.
         e_pressed: 0 (choice), 0 to e_cloth: of a ball that a cushion presses down; with 0 no rail hit lifts a ball.
@@ -167,7 +167,7 @@ class RealTable(Table):
     e_cushion: float = 0.85
     mu_cushion: float = 0.2
     ball: BallLaw = "alciatore"
-    flight: bool = False
+    flight: bool = True
     e_cloth: float = 0.5
     e_strike: float = 0.5
     e_pressed: float = 0.0

@@ -35,7 +35,7 @@ def jump_table() -> physics.RealTable:
     return table
 
 
-def jump(table: physics.Table, v: float, theta: float, balls: dict[int, tuple[float, float]], **options: int) -> Any:
+def jump(table: physics.Table, v: float, theta: float, balls: dict[int, tuple[float, float]], **options: Any) -> Any:
     """A stroke up the table, along +y, through the ball's centre."""
     state = physics.TableState.from_positions({0: (0.6, 0.3)} | balls)
     high = 1e3 * R * math.sin(math.radians(theta))

@@ -6,6 +6,7 @@ polynomials of degree 4 and, at horns, 8.
 
 import math
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -103,7 +104,7 @@ def test_clusters_with_a_flying_ball_tell_the_true_story(name):
         assert abs(float(one.time - other.time)) < 1e-8
 
 
-def total(shot) -> mpf:
+def total(shot: Any) -> mpf:
     """Kinetic energy and that of height, per mass."""
     balls = [ball.copy() for ball in shot.on_table()]
     for ball in balls:

@@ -42,7 +42,7 @@ def plays() -> Iterator[Play]:
 
 def plays_with_jaws() -> Iterator[Play]:
     """Tables with jaws: mid-game shots by every law, a rattle, balls in the jaws and frozen to horns, a break."""
-    rng, nine = np.random.default_rng(15), physics.RealTable.of_size("nine_foot").replace(cue_test=False)
+    rng, nine = np.random.default_rng(15), physics.RealTable.of_size("nine_foot").replace(cue_test=False, flight=False)
     for cushion, ball in (
         ("han", "alciatore"),
         ("mathavan", "alciatore"),
@@ -59,7 +59,7 @@ def plays_with_jaws() -> Iterator[Play]:
     yield "nine_foot, rattle", nine, state, physics.Shot(6.0, 182.5, 0.0, 2.0, 1.0)
     yield "nine_foot, hung balls", nine, state, physics.Shot(3.0, 180.9, 3.0, 0.0, -3.0)
     for size in ("eight_foot", "seven_foot"):
-        table = physics.RealTable.of_size(size).replace(cue_test=False)
+        table = physics.RealTable.of_size(size).replace(cue_test=False, flight=False)
         corner, side = (at_horn(shape, table.contact_distance) for shape in (table.corner_shape, table.side_shape))
         at_horns = {0: (0.5, 0.4), 1: corner, 2: (side[1], 0.5 * table.length + side[0]), 3: corner[::-1]}
         state = physics.TableState.from_positions(at_horns)
