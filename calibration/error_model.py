@@ -19,7 +19,7 @@ from calibration.shot_model import INTENDED, SCALES, STROKE
 LEAST_STROKES = 8
 STEPS, SETTLED = 400, 1e-5
 REPEATS = 60
-TOLD = 0.3
+TOLD = 0.7
 """Part of a parameter's variance that samples must explain, on average, for its standard deviation to be told."""
 
 

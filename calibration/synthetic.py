@@ -70,7 +70,9 @@ def seen(
         written = places[rows, balls] + camera.sigma * rng.standard_normal((len(rows), 2))
         wrong = rng.random(len(rows)) < camera.outliers
         written[wrong] = rng.uniform((0.0, 0.0), (table.width, table.length), (int(wrong.sum()), 2))
-        heights_seen = heights[rows, balls] if table.flies else np.full(len(rows), np.nan)
+        heights_seen = np.full(len(rows), np.nan)
+        if table.flies:
+            heights_seen = heights[rows, balls] + camera.sigma * rng.standard_normal(len(rows))
         stroke = IntendedStroke(*meant.tolist())
         name = f"shot {len(found) + 1}"
         found.append(ObservedShot(name, times[rows], balls, written, heights_seen, stroke))

@@ -20,7 +20,7 @@ TABLE = Table.olympiad().replace(**TRUTH)
 
 @pytest.fixture(scope="module")
 def observations():
-    return seen(TABLE, 6, np.random.default_rng(11), Camera(missing=0.1, outliers=0.01))
+    return seen(TABLE, 5, np.random.default_rng(11), Camera(missing=0.1, outliers=0.01))
 
 
 @pytest.fixture(scope="module")
@@ -89,6 +89,7 @@ def test_a_shot_of_another_world_is_named(observations):
         assert abs(one.value - TRUTH[one.name]) < 6.0 * one.sigma
 
 
+@pytest.mark.slow
 def test_a_wrong_law_is_said_so(observations):
     """Balls that lose no speed when they meet cannot explain balls that do."""
     wrong = TABLE.replace(e_ball=1.0)
@@ -111,10 +112,12 @@ def test_a_false_detection_is_an_outlier_and_a_collision_is_none():
     assert np.flatnonzero(marked).tolist() == [len(places) // 2]
 
 
-def test_the_time_of_the_strike_need_not_be_known(observations):
-    shots = tuple(dataclasses.replace(shot, times=shot.times + 0.013) for shot in observations.shots[:4])
+def test_the_time_of_the_strike_need_not_be_known():
+    """Of balls that were seen at rest before it."""
+    shots = seen(TABLE, 3, np.random.default_rng(11)).shots
+    shots = tuple(dataclasses.replace(shot, times=shot.times + 0.013) for shot in shots)
     found = calibrate(TABLE, Observations(shots, 1e-3, strike_known=False), ["mu_slide"])
-    assert [round(shot.strike, 3) for shot in found.shots] == pytest.approx([0.013] * 4, abs=0.004)
+    assert [round(shot.strike, 3) for shot in found.shots] == pytest.approx([0.013] * 3, abs=0.004)
 
 
 @pytest.mark.parametrize(
