@@ -1,4 +1,4 @@
-"""Calibration: are hidden parameters found again, do the intervals cover, how long does it take, is a wrong law said so?
+"""Calibration: are hidden parameters found again, do intervals cover, how long does it take, is a wrong law said so?
 
 Sets of synthetic shots on a table with hidden parameters; each set is fitted from the Olympiad's values. CPU time is of
 one thread if the numerical libraries are told to use one (OPENBLAS_NUM_THREADS=1).

@@ -90,5 +90,5 @@ def test_broken_json_is_told_by_line_and_column(tmp_path):
 def test_a_stroke_of_no_shot_is_refused(tmp_path):
     (tmp_path / "paths.csv").write_text(SETTINGS + ROWS)
     (tmp_path / "strokes.csv").write_text("shot,v,phi\n1,2,90\n7,2,90\n")
-    with pytest.raises(InvalidData, match="strokes.csv, shot = '7': must be a shot of the paths"):
+    with pytest.raises(InvalidData, match=r"strokes\.csv, shot = '7': must be a shot of the paths"):
         read_paths(tmp_path / "paths.csv", TABLE, tmp_path / "strokes.csv")
