@@ -23,6 +23,8 @@ FOLLOWED_METRES = 3e-3
 """The same where the noise is smaller: parameters are not known yet."""
 NEAR, NEAR_METRES = 25.0, 0.025
 """The same of a whole path that the model comes so near to that it is matched at once."""
+STRAY, NO_STRAY = 6.0, 4.5
+"""Standard deviations of a sample that is left out after the fit, and of those beside it at most."""
 MILD = 4.0
 """A shot whose root mean square is above this counts less in a stage, so that one in a wrong order moves nobody."""
 MOST_ROUNDS = 14
@@ -183,6 +185,22 @@ class StagedShot:
         square = self.root_mean_square(self.member.fit, self.member.weights) ** 2
         return (square - 1.0) * float(np.sqrt(self.counted / 2.0))
 
+    def drop_strays(self) -> bool:
+        """Leave out single samples far off a path that is otherwise followed; whether there were any."""
+        rows = np.abs(self.member.fit.residuals[: self.model.n_samples])
+        worst = np.zeros(len(self.outliers))
+        np.maximum.at(worst, self.model.sample_of_row, rows)
+        strays = np.zeros(len(worst), bool)
+        for ball in self.model.shot.numbers:
+            mine = self.model.shot.of_ball(ball)
+            beside = np.pad(worst[mine], 1)
+            strays[mine] = (worst[mine] > STRAY) & (np.maximum(beside[:-2], beside[2:]) < NO_STRAY)
+        if not strays.any():
+            return False
+        self.outliers |= strays
+        self._base[: self.model.n_samples][strays[self.model.sample_of_row]] = 0.0
+        return True
+
     def settle(self, table: Table) -> None:
         """Full weight up to the horizon, for the last fit."""
         weights = self.weights(self.horizon)
@@ -216,6 +234,12 @@ def match(
         shot.settle(joint.table)
     joint.descend(FINE_STEPS)
     joint.solve(FINE_EVALUATIONS, FINE)
+    dropped = [shot.drop_strays() for shot in staged]
+    if any(dropped):
+        for shot in staged:
+            shot.settle(joint.table)
+        joint.descend(FINE_STEPS)
+        joint.solve(FINE_EVALUATIONS, FINE)
     for number in range(MOST_RELEASES):
         caught = _caught(joint, staged)
         observer(f"{len(caught)} shots caught between two orders of events", 0.85 + 0.05 * number)
