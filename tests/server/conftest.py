@@ -28,6 +28,7 @@ DATABASES = {
     "test_matches": BOTH,
     "test_migrations": BOTH,
     "test_order_of_checks": BOTH,
+    "test_query_plans": BOTH,
     "test_tournaments": BOTH,
     "test_whole_match": BOTH,
     "test_several_processes": ("postgresql",),

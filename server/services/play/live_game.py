@@ -1,6 +1,6 @@
 """A game as the database has it: its rows, read into the referee's values and shown as messages."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
@@ -216,8 +216,13 @@ def player_names(connection: Connection, match: Row[Any]) -> tuple[str, str]:
 def score_of(connection: Connection, match_id: str) -> tuple[float, float]:
     """Games won by seat, half a point each for a drawn one."""
     finished = select(games.c.winner).where(games.c.match_id == match_id, games.c.status == FINISHED)
+    return points(connection.scalars(finished))
+
+
+def points(winners: Iterable[int | None]) -> tuple[float, float]:
+    """The score that these winners of games make, None for a draw."""
     score = [0.0, 0.0]
-    for winner in connection.scalars(finished):
+    for winner in winners:
         for seat in (0, 1):
             score[seat] += 0.5 if winner is None else float(winner == seat)
     return score[0], score[1]

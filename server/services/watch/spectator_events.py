@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import Any, Final, NamedTuple
 
 from fastapi.sse import format_sse_event
-from sqlalchemy import Connection, Row, Select, func, select
+from sqlalchemy import ColumnElement, Connection, Row, Select, select
 
 from protocol import GameAnswer, StreamClocks, StreamConnections, StreamResult, of_many
 from server.services.matches.match_views import summary
@@ -56,10 +56,11 @@ class Marks(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SpectatorState:
-    """What the spectators of a game know already: its marks, and its strokes up to a sequence."""
+    """What the spectators of a game know already: its marks, and its strokes up to a sequence, so many of them."""
 
     marks: Marks
     sequence: int
+    strokes: int
 
 
 def opening(context: Context, game_id: str, after: int | None) -> tuple[list[SpectatorEvent], SpectatorState]:
@@ -72,7 +73,7 @@ def opening(context: Context, game_id: str, after: int | None) -> tuple[list[Spe
     """
     with context.database.reading() as connection:
         live = find(connection, game_id)
-        told = [] if after is None else list(_strokes(connection, game_id, after))
+        told = [] if after is None else list(_strokes(connection, game_id, moves.c.sequence > after))
         standing = _standing(context, connection, live)
         first = GameAnswer(
             **summary(live.row, live.fixture.withheld), view=live.view(connection, None, context.time.now())
@@ -98,7 +99,8 @@ def since(
         for game_id in _moved(context, connection, known):
             live, before = find(connection, game_id), known[game_id]
             after = standings[game_id] = _standing(context, connection, live)
-            news += [*_strokes(connection, game_id, before.sequence), *_rest(context, connection, live, after, before)]
+            news += _strokes(connection, game_id, moves.c.number >= before.strokes)
+            news += _rest(context, connection, live, after, before)
     return news, standings
 
 
@@ -139,16 +141,18 @@ def _result(connection: Connection, live: LiveGame) -> StreamResult:
     return StreamResult(**kept, score=score_of(connection, live.match.id), record=f"/v1/games/{live.id}/record")
 
 
-def _strokes(connection: Connection, game_id: str, after: int) -> Iterator[SpectatorEvent]:
+def _strokes(connection: Connection, game_id: str, which: ColumnElement[bool]) -> Iterator[SpectatorEvent]:
     columns = select(moves.c.sequence, moves.c.line, moves.c.stroke["stroke"].as_integer().label("index"))
-    ours = columns.where(moves.c.game_id == game_id, moves.c.sequence > after).order_by(moves.c.sequence)
+    ours = columns.where(moves.c.game_id == game_id, which).order_by(moves.c.number)
     for row in connection.execute(ours):
         yield SpectatorEvent(game_id, "decision" if row.index is None else "stroke", row.line, row.sequence)
 
 
 def _standing(context: Context, connection: Connection, live: LiveGame) -> SpectatorState:
-    last = select(func.max(moves.c.sequence)).where(moves.c.game_id == live.id)
-    return SpectatorState(_marks(_here(context, connection), live.row, live.agents), connection.scalar(last) or 0)
+    numbers = select(moves.c.sequence, moves.c.number).where(moves.c.game_id == live.id)
+    last = connection.execute(numbers.order_by(moves.c.number.desc()).limit(1)).first()
+    sequence, strokes = (0, 0) if last is None else (last.sequence, last.number + 1)
+    return SpectatorState(_marks(_here(context, connection), live.row, live.agents), sequence, strokes)
 
 
 def _here(context: Context, connection: Connection) -> frozenset[str]:
