@@ -2,8 +2,8 @@
 
 The server does here what it does anywhere: starts with a game that waits, plays, ends, lists with every filter,
 streams, runs an event, looks at clocks and at old answers. A page without a filter may follow an index in its order,
-for its LIMIT ends that. On PostgreSQL sequential scans, and sorting pages, are dear, as they are on full tables: a statement
-that still makes one, or follows a whole index, has no index to use.
+for its LIMIT ends that. On PostgreSQL sequential scans, and sorting pages, are dear, as they are on full tables: a
+statement that still makes one, or follows a whole index, has no index to use.
 """
 
 import contextlib
