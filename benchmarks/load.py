@@ -47,14 +47,15 @@ async def compare(games: int, seconds: float) -> list[Row]:
         with serving("server", "--database", f"sqlite:///{database}") as port:
             await ready(port)
             played = await play(port, games, seconds)
-        size = stored_bytes(database) // max(1, played.shots)
+        answered, kept = (total // max(1, played.shots) for total in stored_bytes(database))
+        size = answered + kept
     answer, request = int(np.mean(played.answered)), int(np.mean(played.sent))
     with tempfile.TemporaryDirectory() as folder:
         options = ("--answer", str(answer), "--store", str(size), "--database", f"{folder}/bare.db")
         with serving("benchmarks.bare_endpoint", *options) as port:
             bare = await hammer(port, games, seconds, request)
     shares = {"of_bare": played.rate / bare.rate}
-    sizes = {"answer_bytes": answer, "stored_bytes": size}
+    sizes = {"answer_bytes": answer, "stored_bytes": size, "kept_bytes": kept}
     return [played.row("server", games) | shares | sizes, bare.row("bare endpoint", games) | {"of_bare": 1.0} | sizes]
 
 
@@ -210,19 +211,22 @@ async def ready(port: int) -> None:
             await asyncio.sleep(0.1)
 
 
-def stored_bytes(database: Path) -> int:
-    """What the shots left in the database: the file with its log folded in."""
+def stored_bytes(database: Path) -> tuple[int, int]:
+    """Bytes of the shots in the database: of their answers, which go when nobody can ask again, and of what stays."""
     import sqlite3
 
     with contextlib.closing(sqlite3.connect(database)) as connection:
-        columns = {"moves": ("stroke", "line"), "answers": ("body", "headers", "route", "key", "request_digest")}
-        total = 0
-        for table, names in columns.items():
-            for name in names:
-                total += connection.execute(f"SELECT coalesce(sum(length({name})), 0) FROM {table}").fetchone()[0]
+        columns = {"answers": ("body", "headers", "route", "key", "request_digest"), "moves": ("stroke", "line")}
+        answered, kept = (
+            sum(
+                connection.execute(f"SELECT coalesce(sum(length({name})), 0) FROM {table}").fetchone()[0]
+                for name in names
+            )
+            for table, names in columns.items()
+        )
         state = connection.execute("SELECT avg(length(state)) FROM games").fetchone()[0]
         moves = connection.execute("SELECT count(*) FROM moves").fetchone()[0]
-        return int(total + state * moves)
+        return answered, int(kept + state * moves)
 
 
 if __name__ == "__main__":

@@ -218,8 +218,8 @@ moves = Table(
     Column("created_at", BigInteger, nullable=False),
     UniqueConstraint("game_id", "number"),
 )
-"""Every stroke and decision of a game, by number from 0. `stroke`: a `StrokeDetail` without its events, which
-are in `line`, the record's."""
+"""Every stroke and decision of a game, by number from 0. `line`: the record's; `stroke`: a `StrokeDetail` without its
+events, null where it is read from the line (`server.services.play.stored_strokes`)."""
 
 answers = Table(
     "answers",

@@ -17,6 +17,7 @@ from server.errors import Forbidden, NotFound
 from server.security.callers import Caller
 from server.services.matches import match_seeds
 from server.services.matches.secrecy import Holder, withheld
+from server.services.play import stored_strokes
 from server.services.play.clock import columns
 from server.store import locks
 from server.store.rows import GameRow
@@ -230,13 +231,13 @@ def points(winners: Iterable[int | None]) -> tuple[float, float]:
 
 def strokes_since(connection: Connection, game_id: str, seat: int | None) -> Sequence[StrokeView]:
     """The seat's own last stroke and what followed; for a spectator the last stroke."""
-    rows = connection.scalars(_SINCE_LAST if seat is None else _SINCE_OWN, {"game": game_id, "seat": seat})
-    return tuple(StrokeView.model_validate(stroke) for stroke in rows)
+    rows = connection.execute(_SINCE_LAST if seat is None else _SINCE_OWN, {"game": game_id, "seat": seat})
+    return tuple(stored_strokes.view(row) for row in rows)
 
 
 def _strokes_since(last: Select[Any]) -> Select[Any]:
     first = func.coalesce(last.order_by(moves.c.number.desc()).limit(1).scalar_subquery(), 0)
-    since = select(moves.c.stroke).where(moves.c.game_id == bindparam("game"), moves.c.number >= first)
+    since = select(*stored_strokes.SUMMED).where(moves.c.game_id == bindparam("game"), moves.c.number >= first)
     return since.order_by(moves.c.number)
 
 
