@@ -81,7 +81,7 @@ def _games() -> dict[str, str]:
 
 
 def _rows_of_games(table: str) -> dict[str, str]:
-    short = {"line": f"substr(t.line, 1, {LINE})", "stroke": "'null'"} if table == "moves" else {}
+    short = {"packed": f"substr(t.packed, 1, {LINE})"} if table == "moves" else {}
     return {"sequence": "NULL", "game_id": _id("game"), **short}
 
 

@@ -47,8 +47,7 @@ async def compare(games: int, seconds: float) -> list[Row]:
         with serving("server", "--database", f"sqlite:///{database}") as port:
             await ready(port)
             played = await play(port, games, seconds)
-        answered, kept = (total // max(1, played.shots) for total in stored_bytes(database))
-        size = answered + kept
+        size, kept = (total // max(1, played.shots) for total in stored_bytes(database))
     answer, request = int(np.mean(played.answered)), int(np.mean(played.sent))
     with tempfile.TemporaryDirectory() as folder:
         options = ("--answer", str(answer), "--store", str(size), "--database", f"{folder}/bare.db")
@@ -212,21 +211,30 @@ async def ready(port: int) -> None:
 
 
 def stored_bytes(database: Path) -> tuple[int, int]:
-    """Bytes of the shots in the database: of their answers, which go when nobody can ask again, and of what stays."""
+    """Bytes that the shots wrote, their games' rows and answers among them; and those of the file that stay for good.
+
+    The second are measured: answers are deleted, as they are when nobody can ask for them again, and the file is made
+    smaller.
+    """
     import sqlite3
 
     with contextlib.closing(sqlite3.connect(database)) as connection:
-        columns = {"answers": ("body", "headers", "route", "key", "request_digest"), "moves": ("stroke", "line")}
-        answered, kept = (
-            sum(
-                connection.execute(f"SELECT coalesce(sum(length({name})), 0) FROM {table}").fetchone()[0]
-                for name in names
-            )
-            for table, names in columns.items()
-        )
+        columns = {
+            "moves": ("stroke", "line", "packed"),
+            "answers": ("body", "headers", "route", "key", "request_digest"),
+        }
+        written = 0
+        for table, names in columns.items():
+            for name in names:
+                written += connection.execute(f"SELECT coalesce(sum(length({name})), 0) FROM {table}").fetchone()[0]
         state = connection.execute("SELECT avg(length(state)) FROM games").fetchone()[0]
         moves = connection.execute("SELECT count(*) FROM moves").fetchone()[0]
-        return answered, int(kept + state * moves)
+        connection.execute("DELETE FROM answers")
+        connection.commit()
+        connection.execute("VACUUM")
+        (page_size,) = connection.execute("PRAGMA page_size").fetchone()
+        (pages,) = connection.execute("PRAGMA page_count").fetchone()
+        return int(written + state * moves), page_size * pages
 
 
 if __name__ == "__main__":

@@ -215,11 +215,13 @@ moves = Table(
     Column("seat", Integer, nullable=False),
     Column("stroke", JSON, nullable=False),
     Column("line", Text, nullable=False),
+    Column("packed", LargeBinary),
     Column("created_at", BigInteger, nullable=False),
     UniqueConstraint("game_id", "number"),
 )
-"""Every stroke and decision of a game, by number from 0. `line`: the record's; `stroke`: a `StrokeDetail` without its
-events, null where it is read from the line (`server.services.play.stored_strokes`)."""
+"""Every stroke and decision of a game, by number from 0. `packed`: the record's line, compressed; `line`: the same
+in rows of earlier versions, else empty; `stroke`: a `StrokeDetail` without its events, null where it is read from the
+line (`server.services.play.stored_strokes`)."""
 
 answers = Table(
     "answers",

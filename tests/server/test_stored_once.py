@@ -28,7 +28,8 @@ def test_a_stroke_is_its_line(new_table, database):
     answered = table.play(12)
     rows = rows_of(database, table.game)
     assert [row.stroke for row in rows] == [None] * len(answered)
-    told = [StrokeDetail.of_entry(json.loads(row.line)).model_dump_json() for row in rows]
+    assert [row.line for row in rows] == [""] * len(answered)
+    told = [StrokeDetail.of_entry(json.loads(stored_strokes.line(row))).model_dump_json() for row in rows]
     assert [json.loads(each) for each in told] == [answer["stroke"] for answer in answered]
 
 
@@ -37,14 +38,16 @@ def test_rows_of_version_0_1_0_are_read_beside_new_ones(new_table, database):
     table = new_table(clock={"seconds": 3600.0})
     table.play(3)
     game = f"/v1/games/{table.game}"
-    paths = (f"{game}/shots", game, f"{game}/shots/0.svg")
-    before = [table.organiser.get(path).text for path in paths[:1] + paths[2:]]
+    paths = (f"{game}/shots", f"{game}/shots/0.svg")
+    before = [table.organiser.get(path).text for path in paths]
     views = [player.get(game).json()["view"]["strokes_since"] for player in table.players]
     with database.writing() as connection:
         for row in rows_of(database, table.game)[:2]:
-            stroke = StrokeDetail.of_entry(json.loads(row.line)).model_dump(mode="json", exclude={"events"})
-            connection.execute(update(moves).where(moves.c.sequence == row.sequence).values(stroke=stroke))
-    assert [table.organiser.get(path).text for path in paths[:1] + paths[2:]] == before
+            line = stored_strokes.line(row)
+            stroke = StrokeDetail.of_entry(json.loads(line)).model_dump(mode="json", exclude={"events"})
+            old = {"stroke": stroke, "line": line, "packed": None}
+            connection.execute(update(moves).where(moves.c.sequence == row.sequence).values(old))
+    assert [table.organiser.get(path).text for path in paths] == before
     assert [player.get(game).json()["view"]["strokes_since"] for player in table.players] == views
 
 
@@ -67,9 +70,9 @@ def test_a_stroke_of_very_many_events_has_its_summary_beside_it(new_table, datab
     summary = {name: value for name, value in answered.items() if name != "events"}
     with database.writing() as connection:
         this = moves.c.sequence == row.sequence
-        connection.execute(update(moves).where(this).values(stroke=summary, line="no line"))
+        connection.execute(update(moves).where(this).values(stroke=summary, packed=b"no line"))
         found = connection.execute(select(*stored_strokes.SUMMED).where(this)).one()
-    assert found.line is None
+    assert found.packed is None
     assert stored_strokes.view(found).model_dump(mode="json") == {
         name: answered[name] for name in summary if name not in ("before", "final")
     }

@@ -1,9 +1,9 @@
 """Looking at games: how one stands, its strokes in pages, its record."""
 
 from collections.abc import Mapping
-from typing import Final
+from typing import Any, Final
 
-from sqlalchemy import Connection, select
+from sqlalchemy import Connection, Select, select
 
 from protocol import GameAnswer, ShotsPage
 from server.errors import GameUnfinished, MatchUnfinished, ServerError, TournamentUnfinished
@@ -65,5 +65,6 @@ _UNTIL: Final[Mapping[Holder, type[ServerError]]] = {"match": MatchUnfinished, "
 
 def record_lines(connection: Connection, row: GameRow) -> list[str]:
     """The record of a game that is over, from its row."""
-    ours = select(moves.c.line).where(moves.c.game_id == row.id).order_by(moves.c.number)
-    return [line for line in (row.header, *connection.scalars(ours), row.ending, row.seal) if line is not None]
+    ours: Select[Any] = select(*stored_strokes.LINE).where(moves.c.game_id == row.id).order_by(moves.c.number)
+    lines = [stored_strokes.line(each) for each in connection.execute(ours)]
+    return [line for line in (row.header, *lines, row.ending, row.seal) if line is not None]

@@ -238,13 +238,9 @@ class _Told:
         number = games.next_move(live)
         detail, chain = StrokeDetail.of(stroke, number, events=False), Chain(live.row.head)
         told, recorded = _events(stroke)
-        row = {
-            "game_id": live.id,
-            "number": number,
-            "seat": stroke.seat,
-            "stroke": detail.model_dump(mode="json", exclude={"events"}) if _is_summed(stroke) else None,
-            "line": chain.add(stroke_entry(stroke, number, end.charge.charged_ns, events=False), recorded),
-        }
+        line = chain.add(stroke_entry(stroke, number, end.charge.charged_ns, events=False), recorded)
+        summary = detail.model_dump(mode="json", exclude={"events"}) if _is_summed(stroke) else None
+        row = {"game_id": live.id, "number": number, "seat": stroke.seat, **stored_strokes.columns(line, summary)}
         return cls(detail, detail.model_dump_json().removesuffix(_NO_EVENTS) + told, row, chain)
 
 

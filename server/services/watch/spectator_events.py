@@ -10,8 +10,8 @@ from sqlalchemy import ColumnElement, Connection, Row, Select, select
 
 from protocol import GameAnswer, StreamClocks, StreamConnections, StreamResult, of_many
 from server.services.matches.match_views import summary
+from server.services.play import stored_strokes
 from server.services.play.live_game import LiveGame, find, score_of
-from server.services.play.stored_strokes import is_decision
 from server.services.runtime.context import Context
 from server.store.rows import GameRow
 from server.store.tables import games, heartbeats, matches, moves
@@ -143,11 +143,12 @@ def _result(connection: Connection, live: LiveGame) -> StreamResult:
 
 
 def _strokes(connection: Connection, game_id: str, which: ColumnElement[bool]) -> Iterator[SpectatorEvent]:
-    columns = select(moves.c.sequence, moves.c.line)
+    columns: Select[Any] = select(moves.c.sequence, *stored_strokes.LINE)
     ours = columns.where(moves.c.game_id == game_id, which).order_by(moves.c.number)
     for row in connection.execute(ours):
-        kind = "decision" if is_decision(row.line) else "stroke"
-        yield SpectatorEvent(game_id, kind, row.line, row.sequence)
+        line = stored_strokes.line(row)
+        kind = "decision" if stored_strokes.is_decision(line) else "stroke"
+        yield SpectatorEvent(game_id, kind, line, row.sequence)
 
 
 def _standing(context: Context, connection: Connection, live: LiveGame) -> SpectatorState:
