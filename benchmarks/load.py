@@ -193,7 +193,8 @@ def serving(module: str, *options: str) -> Iterator[int]:
     """A server as a process; its port."""
     limits = dict.fromkeys(("TOKEN_RATE", "TOKEN_BURST", "ADDRESS_RATE", "ADDRESS_BURST"), "1e9")
     environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER}
-    environment |= {f"POOLIAD_{name}": value for name, value in limits.items()} | {"POOLIAD_LOG_LEVEL": "warning"}
+    environment |= {f"POOLIAD_{name}": value for name, value in limits.items()}
+    environment |= {"POOLIAD_LOG_LEVEL": "warning", "POOLIAD_STREAMS": "1000"}
     command = [sys.executable, "-m", module, "--port", "0", *options]
     with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as process:
         try:
