@@ -1,6 +1,6 @@
 """What spectators are told about a game, read from the database: its strokes, clocks, players and result."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final, NamedTuple
@@ -63,6 +63,11 @@ class SpectatorState:
     sequence: int
     strokes: int
 
+    def followed_by(self, strokes: Sequence[SpectatorEvent], marks: Marks) -> "SpectatorState":
+        """What they know when they have been told of more strokes."""
+        last = strokes[-1].sequence if strokes else None
+        return SpectatorState(marks, self.sequence if last is None else last, self.strokes + len(strokes))
+
 
 def opening(context: Context, game_id: str, after: int | None) -> tuple[list[SpectatorEvent], SpectatorState]:
     """How the game stands for somebody who begins to watch; raises `NotFound`.
@@ -92,27 +97,27 @@ def since(
 ) -> tuple[list[SpectatorEvent], dict[str, SpectatorState]]:
     """The news about several games since they stood as known, and how those stand now that have any.
 
-    One query when nothing has happened, however many games there are.
+    One query when nothing has happened, however many games there are; two more for each game with news.
     """
     news: list[SpectatorEvent] = []
     standings: dict[str, SpectatorState] = {}
     with context.database.reading() as connection:
-        for game_id in _moved(context, connection, known):
-            live, before = find(connection, game_id), known[game_id]
-            after = standings[game_id] = _standing(context, connection, live)
-            news += _strokes(connection, game_id, moves.c.number >= before.strokes)
-            news += _rest(context, connection, live, after, before)
+        here = _here(context, connection)
+        for game_id in _moved(connection, known, here):
+            live, before = context.seen.find(connection, game_id), known[game_id]
+            strokes = list(_strokes(connection, game_id, moves.c.number >= before.strokes))
+            after = standings[game_id] = before.followed_by(strokes, _marks(here, live.row, live.agents))
+            news += [*strokes, *_rest(context, connection, live, after, before)]
     return news, standings
 
 
-def _moved(context: Context, connection: Connection, known: Mapping[str, SpectatorState]) -> list[str]:
+def _moved(connection: Connection, known: Mapping[str, SpectatorState], here: frozenset[str]) -> list[str]:
     """The games that stand otherwise than known."""
     columns: Select[Any] = select(
         *(games.c.id, games.c.version, games.c.mover, games.c.delivered, games.c.clock_from),
         *(matches.c.seat_0, matches.c.seat_1),
     ).join(matches, games.c.match_id == matches.c.id)
     rows = connection.execute(columns.where(games.c.id.in_(known))).all()
-    here = _here(context, connection)
     return [row.id for row in rows if _marks(here, row, (row.seat_0, row.seat_1)) != known[row.id].marks]
 
 
