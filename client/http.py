@@ -84,6 +84,7 @@ class Pooliad:
     direct_tournament = _sent(calls.direct_tournament)
     turns = _sent(calls.turns)
     play = _sent(calls.play)
+    act = _sent(calls.act)
     forfeit = _sent(calls.forfeit)
     clock = _sent(calls.clock)
     game = _sent(calls.game)

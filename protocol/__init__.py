@@ -1,7 +1,7 @@
 """What is on the wire, defined once: pydantic models of requests, answers and problems, and problem codes."""
 
 from protocol.agents import AgentList, AgentRequest, AgentToken, AgentView
-from protocol.answers import ShotsPage, StrokeAnswer
+from protocol.answers import MinimalAnswer, ShotsPage, StrokeAnswer
 from protocol.clocks import ChargeView, ClockLedger, ForfeitRequest, SeatLedger
 from protocol.keys import KeyList, KeyView
 from protocol.matches import (
@@ -114,6 +114,7 @@ __all__ = [
     "MatchView",
     "MinElevationAnswer",
     "MinElevationRequest",
+    "MinimalAnswer",
     "NoiseTerms",
     "NoiseView",
     "NoseView",

@@ -9,6 +9,7 @@ from sqlalchemy import Connection
 from server.errors import Unauthorized, invalid_field
 from server.http.commands import Answer, Command
 from server.http.describe import NUMBER, PAGE_LIMIT, PLACE, SEARCH
+from server.http.preferences import wants_minimal
 from server.security.addresses import origin
 from server.security.callers import Caller, identify
 from server.security.tokens import bearer
@@ -117,6 +118,7 @@ def _sent(request: Request, caller: Caller) -> Command:
         content_type=headers.get("content-type"),
         body=state.body,
         arrived=state.arrived,
+        minimal=wants_minimal(headers.getlist("prefer")),
     )
 
 

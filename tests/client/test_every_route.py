@@ -66,6 +66,11 @@ ARGUMENTS: dict[str, list[tuple[Any, ...]]] = {
         (ID, 1, client.Action(decision=client.Decision.ACCEPT_TABLE)),
         (ID, 1, client.Action(decision=client.Decision.CONCEDE)),
     ],
+    "act": [
+        (ID, 1, client.Action(shot=SHOT)),
+        (ID, 1, client.Action(decision=client.Decision.ACCEPT_TABLE)),
+        (ID, 1, client.Action(decision=client.Decision.CONCEDE)),
+    ],
     "forfeit": [(ID, 0)],
     "clock": [(ID,)],
     "game": [(ID,)],
