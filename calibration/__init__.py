@@ -12,14 +12,14 @@ from calibration.laws import FittedLaw, compare_laws
 from calibration.observed import IntendedStroke, Observations, ObservedShot
 from calibration.reading import read_paths
 from calibration.report import report
-from calibration.result import Calibration, Estimate, ExplainedShot
+from calibration.result import Calibration, ExplainedShot, FittedParameter
 
 __all__ = [
     "Calibration",
     "ErrorModel",
-    "Estimate",
     "ExplainedShot",
     "FittedLaw",
+    "FittedParameter",
     "IntendedStroke",
     "InvalidData",
     "InvalidFit",

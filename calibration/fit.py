@@ -8,7 +8,7 @@ from calibration.errors import InvalidFit
 from calibration.joint import JointFit
 from calibration.observed import Floats, Observations
 from calibration.parameters import Parameter, fitted_parameters, replaced
-from calibration.result import COVERED, Calibration, Estimate, explained
+from calibration.result import COVERED, Calibration, FittedParameter, explained
 from calibration.shot_model import ShotModel
 from calibration.staged import Observer, StagedShot, match
 from physics import Table
@@ -105,8 +105,10 @@ def _bootstrap(joint: JointFit, rng: np.random.Generator) -> Floats:
     return drawn_values
 
 
-def _estimate(parameter: Parameter, value: float, sigma: float, draws: Floats) -> Estimate:
+def _estimate(parameter: Parameter, value: float, sigma: float, draws: Floats) -> FittedParameter:
     low, high = (float(np.clip(value + sign * COVERED * sigma, parameter.low, parameter.high)) for sign in (-1.0, 1.0))
     again = np.clip(np.percentile(draws, [2.5, 97.5]), parameter.low, parameter.high).tolist()
     is_determined = sigma < DETERMINED * (parameter.high - parameter.low)
-    return Estimate(parameter.name, value, parameter.start, sigma, low, high, (again[0], again[1]), is_determined)
+    return FittedParameter(
+        parameter.name, value, parameter.start, sigma, low, high, (again[0], again[1]), is_determined
+    )

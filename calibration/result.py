@@ -18,7 +18,7 @@ PARTS_AT = 6.0
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
-class Estimate:
+class FittedParameter:
     """One parameter.
 
     Attributes:
@@ -79,7 +79,7 @@ class Calibration:
     """
 
     table: Table
-    estimates: tuple[Estimate, ...]
+    estimates: tuple[FittedParameter, ...]
     correlations: Floats
     shots: tuple[ExplainedShot, ...]
     noise: float
