@@ -51,6 +51,7 @@ class Settings:
     database_seconds: float = setting(5.0, "a writer waits so long for an SQLite file that another process has locked")
     registration: str = setting("open", "who may register agents: `open`, `invited`, `closed`", one_of=REGISTRATIONS)
     public_reads: bool = setting(True, "whether games, lists and records are read without a token")
+    public_physics: bool = setting(True, "whether single shots are simulated without a token")
     token_seconds: float = setting(0.0, "how long agents' tokens are good for; 0: until revoked", zero=True)
     fetch_grace: float = setting(
         1.0, "given back of every turn for the wait until its player fetches it; 0: nothing", zero=True

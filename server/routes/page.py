@@ -10,7 +10,7 @@ from typing import Final
 
 from fastapi import APIRouter, FastAPI, Request, Response
 
-from physics import Table
+from physics import Table, rack
 from physics.table import NAMED
 from protocol import TableDescription
 from referee.game import RULES
@@ -22,6 +22,9 @@ router = APIRouter(include_in_schema=False)
 HOME: Final = "index.html"
 RULES_FILE: Final = "rules.json"
 TABLES_FILE: Final = "tables.json"
+RACKS_FILE: Final = "racks.json"
+RACKS: Final = 10
+"""Racks of each named table that the laboratory offers, by their seeds from 0."""
 TYPES: Final = {
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
@@ -60,12 +63,14 @@ class File:
 
 @cache
 def page_files() -> dict[str, File]:
-    """All files of `server/web`, by name, the referee's rules, and the named tables, which even records need."""
+    """All files of `server/web`, by name, the referee's rules, the named tables, which even records need, and racks."""
     found = [one for one in files("server").joinpath("web").iterdir() if one.is_file()]
     contents = {one.name: one.read_bytes() for one in found}
     contents[RULES_FILE] = json.dumps(dict(RULES)).encode()
     described = {name: TableDescription.of(Table.named(name)).model_dump(mode="json") for name in NAMED}
     contents[TABLES_FILE] = json.dumps(described).encode()
+    racked = {name: [rack(Table.named(name), seed=seed).to_dict() for seed in range(RACKS)] for name in NAMED}
+    contents[RACKS_FILE] = json.dumps(racked).encode()
     return {name: File.of(name, content) for name, content in contents.items()}
 
 

@@ -21,8 +21,14 @@ const ROUTES = [
   },
   { at: /^\/matches\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new MatchView(), (view) => view.open(id)) },
   { at: /^\/tournaments\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new TournamentView(), (view) => view.open(id)) },
-  { at: /^\/play$/, page: "play", make: async () => opened(new (await import("./view_play.js")).PlayView(), (view) => view.open()) },
-  { at: /^\/lab$/, page: "lab", make: async () => opened(new (await import("./view_lab.js")).LabView(), (view) => view.open()) },
+  {
+    at: /^\/play(?:\/([\w.:-]+))?$/, page: "play",
+    make: async ([, game]) => opened(new (await import("./view_play.js")).PlayView(), (view) => view.open(game ?? null)),
+  },
+  {
+    at: /^\/lab(?:\?(.*))?$/, page: "lab",
+    make: async ([, query]) => opened(new (await import("./view_lab.js")).LabView(), (view) => view.open(query ?? "")),
+  },
   { at: /^\/agents\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new AgentView(), (view) => view.open(id)) },
 ];
 

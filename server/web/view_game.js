@@ -1,16 +1,17 @@
 /** A game: live by the server's events, over by its record's lines, or from a file; the same page for all. */
 
-import { ProblemError, call, get, token } from "./api.js";
+import { ProblemError, call, get, identity } from "./api.js";
 import { announce, el, facts, fill } from "./dom.js";
 import { GameModel } from "./game_model.js";
 import { watchGame } from "./live.js";
 import { unratedMark } from "./match_row.js";
 import { reducedMotion } from "./playback.js";
 import { Scoreboard } from "./scoreboard.js";
+import { labAddress } from "./snippets.js";
 import { Stage } from "./stage.js";
 import { StrokeList } from "./stroke_list.js";
 import { StrokeStory } from "./stroke_story.js";
-import { describeTable } from "./tables.js";
+import { describeTable, isNamed } from "./tables.js";
 import { describeAction, describeNoise } from "./words.js";
 
 /** Strokes a live picture may lag behind before it jumps to the newest. */
@@ -28,17 +29,19 @@ export class GameView {
     this.connection = el("p", { class: "connection" });
     this.follow = /** @type {HTMLInputElement} */ (el("input", { type: "checkbox", checked: true, onchange: () => this.goOn() }));
     this.ghostButton = el("button", { type: "button", onclick: () => this.ghost() }, "Without noise");
+    this.labLink = /** @type {HTMLAnchorElement} */ (el("a", { class: "button", hidden: true }, "In the laboratory"));
     this.links = el("span", { hidden: true });
     this.mark = unratedMark();
     this.mark.hidden = true;
     this.terms = el("div", { class: "terms" });
+    this.own = el("p", { class: "own", hidden: true }, "You play in this game. ");
     this.heading = el("header", { class: "heading" }, this.title, this.terms);
     this.strokeButtons = el("div", { class: "controls" },
       el("button", { type: "button", onclick: () => this.choose(this.shown - 1) }, "◂ stroke"),
       el("button", { type: "button", onclick: () => this.choose(this.shown + 1) }, "stroke ▸"),
-      this.ghostButton,
+      this.ghostButton, this.labLink,
       el("label", { class: "check" }, this.follow, "follow the game"));
-    this.element = el("article", { class: "game" }, this.heading, this.connection, this.board.element,
+    this.element = el("article", { class: "game" }, this.heading, this.own, this.connection, this.board.element,
       el("div", { class: "columns" },
         el("div", { class: "main-column" }, this.stage.element, this.strokeButtons, this.story.element),
         el("div", { class: "side-column" }, this.list.element)));
@@ -74,6 +77,7 @@ export class GameView {
     this.list.update(model, following ? this.shown + 1 : model.entries.length, this.rolling);
     const over = this.seen && model.settle();
     this.board.show(model, this.shownState());
+    this.showLab();
     if (over) this.over();
   }
 
@@ -153,6 +157,7 @@ export class GameView {
     document.title = `${players[0]} – ${players[1]} · Pooliad`;
     this.stage.useTable(table);
     this.stage.rest(balls);
+    fill(this.own, "You play in this game. ", el("a", { class: "button", href: `#/play/${this.model.terms.id}` }, "To the table"));
     const fromServer = games !== null;
     fill(this.terms, facts(`Game ${number + 1}${fromServer ? ` of ${games}` : ""}`,
       fromServer && match && el("a", { href: `#/matches/${match}` }, "the match"), describeTable(table), describeNoise(noise), this.mark, this.links));
@@ -164,6 +169,7 @@ export class GameView {
   async showMark(match) {
     const found = await get(`/v1/matches/${encodeURIComponent(match)}`).catch(() => null);
     this.mark.hidden = found === null || found.rated;
+    this.own.hidden = !(found?.status === "running" && found.agents.includes(identity()?.id));
   }
 
   take(kind, data) {
@@ -227,6 +233,15 @@ export class GameView {
     this.list.mark(place);
   }
 
+  /** The way to the laboratory with the position on the table, and the stroke as it was meant. */
+  showLab() {
+    const { table } = this.model.terms;
+    const entry = this.model.entries[this.shown];
+    const balls = entry ? this.model.ballsBefore(this.shown) : this.model.terms.balls;
+    this.labLink.hidden = !isNamed(table) || !balls?.[0];
+    if (!this.labLink.hidden) this.labLink.href = labAddress(table.name, balls, entry?.action.shot ?? undefined);
+  }
+
   /** The sentence of a stroke, once its end is no secret. */
   tellStory() {
     const entry = this.model.entries[this.shown];
@@ -245,7 +260,6 @@ export class GameView {
     const entry = this.model?.entries[this.shown];
     if (!entry?.before) return announce("A decision has no stroke to simulate.");
     if (this.stage.ghost) return this.stage.setGhost(null);
-    if (!token()) return announce("Sign in on the page Play: the server simulates for those it knows.");
     try {
       const body = { table: this.model.terms.table, balls: entry.before, shot: entry.action.shot, trace: true };
       this.stage.setGhost(await call("POST", "/v1/simulate", { body }));

@@ -1,6 +1,6 @@
 /** The lobby: live games in small, what comes next, matches, agents. */
 
-import { get } from "./api.js";
+import { get, identity } from "./api.js";
 import { el } from "./dom.js";
 import { watchGames } from "./live.js";
 import { matchRow } from "./match_row.js";
@@ -16,6 +16,7 @@ export class LobbyView {
     this.gallery = new Gallery();
     this.none = el("p", { class: "empty stand-in" }, "No game is being played. ",
       el("a", { href: "#/play" }, "Play one"), ", or try a shot in the ", el("a", { href: "#/lab" }, "laboratory"), ".");
+    this.own = el("p", { class: "own", hidden: true }, "A game of yours is on. ", el("a", { class: "button", href: "#/play" }, "Back to the table"));
     this.next = new PagedList({
       title: "Next", path: "/v1/matches?status=challenged", member: "matches",
       row: matchRow, empty: "No challenge is open.",
@@ -36,7 +37,7 @@ export class LobbyView {
     });
     this.file = /** @type {HTMLInputElement} */ (el("input", { type: "file", accept: ".jsonl,.json,.ndjson", id: "record-file" }));
     this.element = el("div", { class: "lobby" },
-      el("h1", {}, "Lobby"),
+      el("h1", {}, "Lobby"), this.own,
       el("section", { "aria-label": "Live games" }, el("h2", { class: "live" }, "Live"), this.none, this.gallery.element),
       el("div", { class: "lists" }, this.matches.element, this.tournaments.element, this.agents.element, this.next.element),
       el("section", { class: "drop", "aria-label": "Record file" },
@@ -59,6 +60,8 @@ export class LobbyView {
   async refresh() {
     const running = await get(`/v1/matches?status=running&limit=${LIVE}`).catch(() => null);
     if (!running || this.closed) return;
+    const me = identity();
+    this.own.hidden = !(me && running.matches.some((match) => match.agents.includes(me.id)));
     const games = running.matches.flatMap((match) => match.played.filter((game) => game.status === "running").map((game) => game.id));
     if (games.join() === this.games?.join()) return;
     const first = this.games === null;

@@ -4,7 +4,7 @@ import { ProblemError, call, command, get, identity, newKey, newSeed, signOut, t
 import { Aiming } from "./aiming.js";
 import { announce, el, fill, labelled } from "./dom.js";
 import { Latest } from "./latest.js";
-import { signInPanel } from "./sign_in.js";
+import { signInPanel, tokenPanel } from "./sign_in.js";
 import { describeTable, tableNames, tableTitle } from "./tables.js";
 import { GameView } from "./view_game.js";
 
@@ -38,8 +38,14 @@ export class PlayView {
     this.match = null;
   }
 
-  open() {
+  /** @param {string | null} game the address of a game: its players go on with it, everybody else watches */
+  async open(game = null) {
     const me = identity();
+    if (game) {
+      const match = me && (await matchOf(game));
+      if (match?.status !== "running" || !match.agents.includes(me.id)) return location.replace(`#/games/${game}`);
+      return this.enter(match.id);
+    }
     if (!me) return fill(this.top, el("h1", {}, "Play"), signInPanel(() => this.open()));
     return this.continueMatch(me, this.chooseOpponent(me));
   }
@@ -63,6 +69,7 @@ export class PlayView {
     fill(this.top, el("h1", {}, "Play"),
       el("p", {}, "You are ", el("strong", {}, me.name), ". Games played here are unrated. ",
         el("button", { type: "button", onclick: () => this.leave() }, "Sign out")),
+      tokenPanel(),
       this.problem, el("p", { class: "one-line" }, labelled("Kind of table", this.table), labelled("Noise of the strokes", this.noise)),
       el("div", { class: "cards" },
         el("section", { class: "panel", "aria-label": "Opponent" }, el("h2", {}, "Against the house"), bots),
@@ -155,7 +162,9 @@ export class PlayView {
     const concede = el("button", { type: "button", onclick: () => this.concede(concede) }, "Concede");
     this.waiting = el("p", { class: "waiting", role: "status" }, "Waiting for the turn …");
     this.dock = el("div", { class: "dock" }, this.waiting, this.aiming.element);
-    this.game.sitDown([this.aiming.said, this.aiming.spin.element], this.dock, el("div", { class: "choices" }, concede));
+    this.game.sitDown([this.aiming.said, this.aiming.spin.element], this.dock, el("div", { class: "choices" }, concede,
+      el("button", { type: "button", onclick: () => copyAddress(game) }, "Copy link to the game")), tokenPanel());
+    history.replaceState(null, "", `#/play/${game}`);
     fill(this.gamePart, this.game.element);
     this.measure();
     this.game.watch(game);
@@ -268,6 +277,7 @@ export class PlayView {
     this.game?.close();
     this.game = null;
     fill(this.gamePart);
+    history.replaceState(null, "", "#/play");
     this.chooseOpponent(identity());
   }
 
@@ -285,6 +295,18 @@ export class PlayView {
     this.aiming?.end();
     this.game?.close();
   }
+}
+
+/** The match of a game; null when there is none. @param {string} game */
+async function matchOf(game) {
+  const found = await get(`/v1/games/${encodeURIComponent(game)}`).catch(() => null);
+  return found && get(`/v1/matches/${encodeURIComponent(found.view.match)}`).catch(() => null);
+}
+
+/** What can be sent to anybody. @param {string} game */
+async function copyAddress(game) {
+  await navigator.clipboard?.writeText(`${location.origin}/#/games/${game}`).catch(() => {});
+  announce(`Copied: ${location.origin}/#/games/${game}`);
 }
 
 /** The agent of exactly this name. @param {string} name */

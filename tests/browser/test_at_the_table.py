@@ -1,4 +1,4 @@
-"""At the table: it and what plays on it share one screen, at every size; hands, lines, and no stroke told before its end.
+"""At the table: it and what plays on it share one screen at every size; hands, lines; no stroke told before its end.
 
 Issue 17, "The page, playing" and "Measured": structure, not pixels.
 """
@@ -11,7 +11,7 @@ from support.axe import violations
 from support.play_along import Match, act, next_turn
 
 SIZES = ((390, 844), (844, 390), (768, 1024), (1280, 800), (1920, 1080))
-START = {
+START: dict[str, Any] = {
     "balls": {"0": [0.56, 1.7], "8": [0.9, 0.3], "2": [0.56, 1.1], "5": [0.9, 1.2], "9": [0.2, 1.1], "12": [0.95, 0.6]},
     "groups": ["solids", "stripes"],
 }
@@ -196,8 +196,8 @@ def test_an_earlier_stroke_is_looked_at_without_a_stroke_by_mistake(new_page, se
     match = seated(page, server, start=START)
     page.get_by_role("button", name="Shoot").click()
     page.locator("ol.strokes li").first.wait_for()
-    while next_turn(match)[0] != 0:
-        play_safe(match)
+    while (turn := next_turn(match)) is not None and turn[0] != 0:
+        act(match, *turn)
     page.get_by_role("region", name="Your turn").wait_for()
     assert page.get_by_role("button", name="Play", exact=True).count() == 0
     replay = page.get_by_role("button", name="Replay").evaluate("one => getComputedStyle(one).backgroundColor")
@@ -209,13 +209,6 @@ def test_an_earlier_stroke_is_looked_at_without_a_stroke_by_mistake(new_page, se
     assert page.get_by_role("button", name="Shoot", exact=True).is_visible()
 
 
-def play_safe(match: Match) -> None:
-    """A stroke or decision of the other's."""
-    turn = next_turn(match)
-    assert turn is not None
-    act(match, *turn)
-
-
 def test_nothing_is_told_of_a_stroke_that_still_rolls(page, server):
     """List, sentence, clocks and result wait for the picture; held back here by a slow replay."""
     match = server.match(start=START, noise={"level": 0.0}, rated=False)
@@ -225,8 +218,14 @@ def test_nothing_is_told_of_a_stroke_that_still_rolls(page, server):
     page.get_by_label("Speed").select_option("0.1")
     mover = page.locator(".side.turn .name").inner_text()
     for played in (1, 2):
-        seat, view = next_turn(match)
-        body = {"shot": {"v": 3.0, "phi": 270.0, "theta": 5.0, "a": 0.0, "b": 0.0}, "call": "safety", "cue_ball": None}
+        turn = next_turn(match)
+        assert turn is not None
+        seat, view = turn
+        body: dict[str, Any] = {
+            "shot": {"v": 3.0, "phi": 270.0, "theta": 5.0, "a": 0.0, "b": 0.0},
+            "call": "safety",
+            "cue_ball": None,
+        }
         if view.cue_ball_area:
             body["cue_ball"] = [0.56, 1.9]
         path, headers = f"/v1/games/{view.game}/shots", {"If-Match": f'"{view.version}"'}
