@@ -15,7 +15,9 @@ from physics.table import NAMED
 from protocol import TableDescription
 from referee.game import RULES
 from server.errors import NotFound
+from server.http.dependencies import context_of
 from server.reference import reference
+from tournament.luck import VALUE
 
 router = APIRouter(include_in_schema=False)
 
@@ -23,6 +25,7 @@ HOME: Final = "index.html"
 RULES_FILE: Final = "rules.json"
 TABLES_FILE: Final = "tables.json"
 RACKS_FILE: Final = "racks.json"
+VALUE_FILE: Final = "value.json"
 RACKS: Final = 10
 """Racks of each named table that the laboratory offers, by their seeds from 0."""
 TYPES: Final = {
@@ -30,12 +33,13 @@ TYPES: Final = {
     ".js": "text/javascript; charset=utf-8",
     ".css": "text/css; charset=utf-8",
 }
+ALONE: Final = "frame-ancestors 'none'"
 POLICY: Final = (
     *("default-src 'none'", "script-src 'self'", "style-src 'self'", "img-src 'self'", "connect-src 'self'"),
-    *("base-uri 'none'", "form-action 'none'", "frame-ancestors 'none'"),
+    *("base-uri 'none'", "form-action 'none'", ALONE),
     *("require-trusted-types-for 'script'", "trusted-types 'none'"),
 )
-"""Nothing is loaded from anywhere else, no markup is made from text, nobody puts the page in a frame."""
+"""Nothing is loaded from anywhere else, no markup is made from text, nobody shows it in a frame unless allowed to."""
 HEADERS: Final = {
     "Content-Security-Policy": "; ".join(POLICY),
     "Referrer-Policy": "no-referrer",
@@ -70,14 +74,19 @@ def page_files() -> dict[str, File]:
     described = {name: TableDescription.of(Table.named(name)).model_dump(mode="json") for name in NAMED}
     contents[TABLES_FILE] = json.dumps(described).encode()
     racked = {name: [rack(Table.named(name), seed=seed).to_dict() for seed in range(RACKS)] for name in NAMED}
+    contents[VALUE_FILE] = json.dumps({"source": VALUE.source, "weights": dict(VALUE.weights)}).encode()
     contents[RACKS_FILE] = json.dumps(racked).encode()
     return {name: File.of(name, content) for name, content in contents.items()}
 
 
 @router.get("/")
 def home(request: Request) -> Response:
-    """The page."""
-    return _served(request, HOME)
+    """The page; the one file that may be shown in a frame, by those whom the settings name."""
+    answer = _served(request, HOME)
+    if named := context_of(request).settings.framing_origins:
+        policy = HEADERS["Content-Security-Policy"].replace(ALONE, f"frame-ancestors {' '.join(named)}")
+        answer.headers["Content-Security-Policy"] = policy
+    return answer
 
 
 @router.get("/docs")

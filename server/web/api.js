@@ -26,8 +26,14 @@ export function token() {
   return stored(TOKEN);
 }
 
+/** Whether the page is shown within another one, which must not act for a player: it could lead clicks astray. */
+export function isEmbedded() {
+  return window.top !== window.self;
+}
+
 /** The tab's own player goes before the device's: two tabs may play against each other. */
 function stored(name) {
+  if (isEmbedded()) return null;
   const here = sessionStorage.getItem(TOKEN) ? sessionStorage : localStorage;
   return here.getItem(name);
 }

@@ -31,7 +31,7 @@ export class GameModel {
     const { view } = game;
     const { players, table, noise, number, games, match, balls, groups, turn } = view;
     const made = new GameModel({ id: game.id, players, table, noise, number, games, match, balls });
-    made.first = { state: balls, groups, turn };
+    made.first = { state: balls, groups, turn, phase: view.phase, cue_ball_in_hand: view.cue_ball_area?.name ?? null };
     made.score = view.score;
     return made;
   }

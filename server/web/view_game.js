@@ -1,12 +1,14 @@
 /** A game: live by the server's events, over by its record's lines, or from a file; the same page for all. */
 
 import { ProblemError, call, get, identity } from "./api.js";
+import { Chances } from "./chances.js";
 import { announce, el, facts, fill } from "./dom.js";
 import { GameModel } from "./game_model.js";
 import { watchGame } from "./live.js";
 import { unratedMark } from "./match_row.js";
 import { reducedMotion } from "./playback.js";
 import { Scoreboard } from "./scoreboard.js";
+import { sharing } from "./sharing.js";
 import { labAddress } from "./snippets.js";
 import { Stage } from "./stage.js";
 import { StrokeList } from "./stroke_list.js";
@@ -18,6 +20,9 @@ import { describeAction, describeNoise } from "./words.js";
 const LAG = 2;
 /** What a slider may lack of its end, s. */
 const ALMOST = 1e-6;
+/** How long a result is shown before the next game, and time between two looks for it, ms. */
+const RESULT_SHOWN = 4000;
+const AGAIN = 1000;
 
 export class GameView {
   constructor() {
@@ -31,6 +36,8 @@ export class GameView {
     this.ghostButton = el("button", { type: "button", onclick: () => this.ghost() }, "Without noise");
     this.labLink = /** @type {HTMLAnchorElement} */ (el("a", { class: "button", hidden: true }, "In the laboratory"));
     this.links = el("span", { hidden: true });
+    this.share = el("details", { class: "share" });
+    this.chances = new Chances((place) => this.choose(place));
     this.mark = unratedMark();
     this.mark.hidden = true;
     this.terms = el("div", { class: "terms" });
@@ -43,8 +50,8 @@ export class GameView {
       el("label", { class: "check" }, this.follow, "follow the game"));
     this.element = el("article", { class: "game" }, this.heading, this.own, this.connection, this.board.element,
       el("div", { class: "columns" },
-        el("div", { class: "main-column" }, this.stage.element, this.strokeButtons, this.story.element),
-        el("div", { class: "side-column" }, this.list.element)));
+        el("div", { class: "main-column" }, this.stage.element, this.strokeButtons, this.chances.element, this.story.element),
+        el("div", { class: "side-column" }, this.list.element, this.share)));
     /** @type {GameModel | null} */
     this.model = null;
     this.shown = -1;
@@ -61,6 +68,9 @@ export class GameView {
     /** Called when the game has a result; and when that may be shown. */
     this.ended = () => {};
     this.finished = () => {};
+    /** Where a spectator is led when the next game begins. @type {((game: string) => void) | null} */
+    this.goesOn = null;
+    this.closed = false;
   }
 
   /** Whether everything told so far may be shown: nobody follows, or the picture has come as far. */
@@ -78,6 +88,7 @@ export class GameView {
     const over = this.seen && model.settle();
     this.board.show(model, this.shownState());
     this.showLab();
+    this.chances.show(model, this.rolling >= 0 ? this.rolling - 1 : following ? this.shown : model.entries.length - 1, this.shown);
     if (over) this.over();
   }
 
@@ -121,7 +132,7 @@ export class GameView {
     this.element.classList.add("playing");
     this.screen = el("div", { class: "table-screen" }, el("div", { class: "board" }, this.board.element, this.connection), stage.holder, dock);
     fill(this.element, this.screen, el("div", { class: "columns" },
-      el("div", { class: "main-column" }, this.heading, el("section", { "aria-label": "Replay" }, stage.replay, this.strokeButtons), this.story.element),
+      el("div", { class: "main-column" }, this.heading, el("section", { "aria-label": "Replay" }, stage.replay, this.strokeButtons), this.chances.element, this.story.element),
       el("div", { class: "side-column" }, ...more, this.list.element)));
   }
 
@@ -162,6 +173,8 @@ export class GameView {
     fill(this.terms, facts(`Game ${number + 1}${fromServer ? ` of ${games}` : ""}`,
       fromServer && match && el("a", { href: `#/matches/${match}` }, "the match"), describeTable(table), describeNoise(noise), this.mark, this.links));
     if (fromServer && match) this.showMark(match);
+    if (fromServer) fill(this.share, sharing(this.model.terms.id));
+    this.share.hidden = !fromServer;
     this.showSeen();
   }
 
@@ -198,6 +211,23 @@ export class GameView {
     fill(this.links, el("a", { href: `/v1/games/${id}/record`, download: `${id}.jsonl` }, "record"));
     announce(this.board.result.textContent ?? "");
     this.finished();
+    if (this.goesOn) this.followMatch();
+  }
+
+  /** The next game of the match, once there is one, for whoever still follows. */
+  async followMatch() {
+    const { match, number, games } = this.model.terms;
+    if (games === null || number + 1 >= games) return;
+    fill(this.connection, "The next game comes by itself.");
+    const noSooner = performance.now() + RESULT_SHOWN;
+    while (!this.closed) {
+      const found = await get(`/v1/matches/${encodeURIComponent(match)}`).catch(() => null);
+      const next = found?.played.find((game) => game.number === number + 1);
+      if ((found && found.status !== "running" && !next) || !this.follow.checked) break;
+      if (next && performance.now() >= noSooner && !this.closed) return this.goesOn(next.id);
+      await new Promise((go) => setTimeout(go, AGAIN));
+    }
+    if (!this.closed) fill(this.connection);
   }
 
   /** Following: the next stroke when one is over; the newest when too many wait. */
@@ -270,6 +300,7 @@ export class GameView {
   }
 
   close() {
+    this.closed = true;
     this.stop();
     clearInterval(this.timer);
     this.stage.close();
