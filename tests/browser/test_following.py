@@ -97,3 +97,27 @@ def test_a_game_is_shown_in_a_frame_of_those_who_may(new_page, own_server_in_fra
 
 def test_nobody_shows_it_in_a_frame_unless_allowed_to(server):
     assert "frame-ancestors 'none'" in server.http.get("/").headers["content-security-policy"]
+
+
+def test_a_lobby_shows_last_games_and_the_ladder_when_nothing_is_played(new_page, own_server):
+    """Issue 17: a lobby that looks alive when nothing happens; ratings of a standing server, and who is there."""
+    match = own_server.match(names=("rated ann", "rated bob"), seed=None)
+    concede(match)
+    page = new_page()
+    page.goto(own_server.url)
+    page.get_by_role("region", name="Last games").get_by_text("wins: concession").wait_for()
+    picture = page.get_by_role("region", name="Last games").locator("img")
+    picture.scroll_into_view_if_needed()
+    page.wait_for_function("() => document.querySelector('[aria-label=\"Last games\"] img').naturalWidth > 0")
+    rungs = own_server.http.get("/v1/ladder").json()["rungs"]
+    assert [one["games"] for one in rungs] == [1, 1]
+    ladder = page.get_by_role("table", name="after 1 rated game")
+    rows = ladder.get_by_role("row")
+    rows.nth(2).wait_for()
+    for place, one in enumerate(rungs, 1):
+        assert rows.nth(place).get_by_role("rowheader").inner_text().startswith(one["name"])
+        assert f"{one['ordinal']:.1f}" in rows.nth(place).inner_text()
+    assert violations(page) == []
+    ladder.get_by_role("link", name=rungs[0]["name"]).click()
+    page.get_by_text("Rung 1 of 2").wait_for()
+    page.get_by_text("1 rated game", exact=True).wait_for()

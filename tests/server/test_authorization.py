@@ -27,6 +27,7 @@ LET_IN = {
     "GET /": PUBLIC,
     "GET /web/{name}": PUBLIC,
     "GET /v1/keys": PUBLIC,
+    "GET /v1/ladder": PUBLIC,
     "GET /v1/tables": PUBLIC,
     "GET /v1/tables/{name}": PUBLIC,
     "POST /v1/tables": PUBLIC,

@@ -109,7 +109,7 @@ def _moved(context: Context, connection: Connection, known: Mapping[str, Spectat
         *(matches.c.seat_0, matches.c.seat_1),
     ).join(matches, games.c.match_id == matches.c.id)
     rows = connection.execute(columns.where(games.c.id.in_(known))).all()
-    here = _here(context, connection)
+    here = agents_here(context, connection)
     return [row.id for row in rows if _marks(here, row, (row.seat_0, row.seat_1)) != known[row.id].marks]
 
 
@@ -148,10 +148,10 @@ def _strokes(connection: Connection, game_id: str, after: int) -> Iterator[Spect
 
 def _standing(context: Context, connection: Connection, live: LiveGame) -> SpectatorState:
     last = select(func.max(moves.c.sequence)).where(moves.c.game_id == live.id)
-    return SpectatorState(_marks(_here(context, connection), live.row, live.agents), connection.scalar(last) or 0)
+    return SpectatorState(_marks(agents_here(context, connection), live.row, live.agents), connection.scalar(last) or 0)
 
 
-def _here(context: Context, connection: Connection) -> frozenset[str]:
+def agents_here(context: Context, connection: Connection) -> frozenset[str]:
     """The agents that poll this process, or another one on the same database."""
     now = context.time.now()
     here = context.presence.here(now)
