@@ -24,8 +24,8 @@ COPY --from=build /wheels /wheels
 RUN pip install --no-deps /wheels/pooliad-*.whl
 RUN install -d -o 10001 -g 10001 /data /var/cache/pooliad
 USER 10001:10001
-# The self-test leaves every kernel the server needs compiled in the cache.
-RUN pooliad doctor --database sqlite:////data/pooliad.db
+# The self-tests leave every kernel the server needs compiled in the cache.
+RUN pooliad doctor --jaws --database sqlite:////data/pooliad.db
 WORKDIR /data
 VOLUME /data
 EXPOSE 8080

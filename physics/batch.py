@@ -17,6 +17,7 @@ from physics.parameters import parameters
 from physics.shot import FIELDS, Shot
 from physics.simulation import NO_COUNTERS, NO_TRACE, checked_positions
 from physics.state import TableState
+from physics.status import Status
 from physics.table import Table
 
 PARTS_PER_THREAD = 8
@@ -53,6 +54,11 @@ class Batch:
 
     def __len__(self) -> int:
         return len(self.status)
+
+    def __repr__(self) -> str:
+        numbers, counts = np.unique(self.status, return_counts=True)
+        ended = [f", {count} {Status(number).name}" for number, count in zip(numbers, counts, strict=True)]
+        return f"Batch({len(self)} shots{''.join(ended)})"
 
     def state(self, row: int) -> TableState:
         """Final state of one shot."""

@@ -79,7 +79,20 @@ def workspace() -> NDArray[np.float64]:
 def kernels(jaws: bool = False) -> Any:
     """The module of compiled entry points: for tables with straight mouths, or with jaws."""
     with _LOADING:  # numba's setting below is the whole process's
-        return _load("entries_real" if jaws else "entries")
+        return _load(_module(jaws))
+
+
+def is_compiled(jaws: bool = False) -> bool:
+    """Whether ``kernels(jaws)`` finds compiled code in the cache folder: then it takes a second, else minutes."""
+    return _has_compiled(cache_folder(), _module(jaws))
+
+
+def _module(jaws: bool) -> str:
+    return "entries_real" if jaws else "entries"
+
+
+def _has_compiled(folder: Path | None, module: str) -> bool:
+    return folder is not None and any(folder.rglob(f"{module}.*.nbi"))
 
 
 @functools.cache
@@ -99,5 +112,5 @@ def _load(module: str) -> Any:
 
 def say_if_compiled_now(folder: Path | None, module: str, what: str) -> None:
     """A line on standard error where loading a module compiles it: nothing of it is in the folder yet."""
-    if folder is None or not any(folder.rglob(f"{module}.*.nbi")):
+    if not _has_compiled(folder, module):
         sys.stderr.write(f"pooliad: compiling {what} for this processor, once; this takes a minute or more ...\n")

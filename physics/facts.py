@@ -74,6 +74,18 @@ class Facts:
     duration: float
     first_contact_cue_ball: tuple[float, float]
 
+    def __repr__(self) -> str:
+        """What was a fact: numbers that are not those of ``none()``, of a list the balls it holds for."""
+        nothing, parts = Facts.none(), []
+        for field in dataclasses.fields(self):
+            value, usual = getattr(self, field.name), getattr(nothing, field.name)
+            if isinstance(value, tuple) and len(value) == N_BALLS:
+                value = {ball: number for ball, number in enumerate(value) if number != usual[ball]}
+                usual = {}
+            if str(value) != str(usual):  # NaN is NaN
+                parts.append(f"{field.name}={value}")
+        return f"Facts({', '.join(parts)})"
+
     @classmethod
     def none(cls) -> Self:
         """The facts of a stroke in which nothing happened: the base for building facts by hand."""

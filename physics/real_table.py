@@ -98,7 +98,7 @@ RANGES: Final[dict[str, Range]] = {
 }
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, repr=False)
 class RealTable(Table):
     """A pool table with jaws; ``Table.nine_foot()``, ``eight_foot()`` and ``seven_foot()`` are the named ones.
 

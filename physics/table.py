@@ -220,12 +220,22 @@ class Table:
         inside = side <= half_x + reach and end <= half_y + reach
         return inside and side + end <= half_x + half_y - self.corner_reach + reach
 
+    def __repr__(self) -> str:
+        named = self.named(self.name).to_dict()
+        changes = [f"{name}={value!r}" for name, value in self.to_dict().items() if value != named[name]]
+        return f"Table.{self.name}()" + (f".replace({', '.join(changes)})" if changes else "")
+
     def _repr_svg_(self) -> str:
         return notebook.picture(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values by parameter name; ``from_dict`` reads them back."""
         return dataclasses.asdict(self)
+
+    @classmethod
+    def of(cls, table: "str | Mapping[str, Any]") -> "Table":
+        """A table by its name, or read as ``from_dict`` does; raises InvalidTable as that does."""
+        return cls.from_dict({"name": table} if isinstance(table, str) else table)
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> "Table":

@@ -100,6 +100,9 @@ class Events(Sequence[Event]):
     def __len__(self) -> int:
         return len(self._rows)
 
+    def __repr__(self) -> str:
+        return f"Events({len(self)}" + (f": {self[0]} ... {self[-1]})" if len(self) else ")")
+
     @overload
     def __getitem__(self, index: int) -> Event: ...
 

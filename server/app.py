@@ -19,7 +19,6 @@ from server.security import keys
 from server.services.accounts.house_processes import House
 from server.services.matches.matches import abort_foreign
 from server.services.play.clock.flag import timer
-from server.services.runtime import warmup
 from server.services.runtime.context import Context
 from server.services.runtime.heartbeat import Heartbeat
 from server.services.runtime.relay import Relay
@@ -99,7 +98,7 @@ def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManag
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         context.wakeups.start()
-        warmup.start(context)
+        context.kernels.straight.start()
         parts = (
             *(Relay(context), app.state.heartbeat, timer(context), retention(context)),
             *(app.state.spectators, app.state.house),

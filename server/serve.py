@@ -7,6 +7,8 @@ import asyncio
 import errno
 import gc
 import json
+import logging
+import os
 import resource
 import signal
 import socket
@@ -109,6 +111,16 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
     )
     _HintingServer(config, context, started).run([server_socket])
     gc.freeze()  # all is closed: the interpreter's last look for garbage takes seconds on what the compiler left
+    if context.kernels.are_loading:
+        _leave_the_compiler()
+
+
+def _leave_the_compiler() -> None:
+    """Leave at once, with 0: the interpreter's own end takes LLVM's memory from under a thread that works in it."""
+    logging.shutdown()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(0)
 
 
 def _raise_descriptor_limit() -> None:

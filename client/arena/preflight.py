@@ -55,7 +55,7 @@ def require_startable(
     Raises:
         EventError: some cannot be made or started; the message has each with the end of its traceback.
     """
-    table = Table.from_dict({"name": terms.spec.table} if isinstance(terms.spec.table, str) else terms.spec.table)
+    table = Table.of(terms.spec.table)
     candidates = [
         Candidate(
             name,

@@ -201,7 +201,7 @@ class _Game:
         self._tell = tell
         self._past = deque(notes.lines if notes else ())
         self._made = deque(parse(line) for line in list(self._past)[1:])
-        self._rules = EightBall(Table.from_dict({"name": task.table} if isinstance(task.table, str) else task.table))
+        self._rules = EightBall(Table.of(task.table))
         self._budgets: Budgets = budgets(task.simulated_shots)
         self._spent = notes.spent if notes else (0, 0)
         self._now = 0

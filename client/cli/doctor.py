@@ -22,6 +22,10 @@ def doctor(
     database: Annotated[
         str, typer.Option(envvar="POOLIAD_DATABASE", help="Database that `serve` would use.")
     ] = "sqlite:///pooliad.db",
+    jaws: Annotated[
+        bool,
+        typer.Option("--jaws", help="Compile and test the physics of tables with jaws too; it takes minutes, once."),
+    ] = False,
     as_json: Json = False,
 ) -> None:
     """Show versions, where packages load from, the kernel cache, database, port, and a self-test.
@@ -35,8 +39,10 @@ def doctor(
         "record_engine": _record_engine(),
         "database": _database(database),
         "port": _port(port),
-        "self_test": _self_test(),
+        "self_test": _self_test(jaws=False),
     }
+    if jaws or report["kernel_cache"]["with_jaws"] == "compiled":
+        report["self_test_with_jaws"] = _self_test(jaws=True)
     faults = _faults(report)
     if as_json:
         emit(report | {"ok": not faults, "faults": faults})
@@ -80,11 +86,13 @@ def _origin(package: str) -> str | None:
 
 def _kernel_cache() -> dict[str, Any]:
     """Where compiled kernels are kept, and whether they are there already."""
-    from physics.engine import cache_folder, digest
+    from physics.engine import cache_folder, digest, is_compiled
 
     folder = cache_folder()
     state = "no folder can be written" if folder is None else "filled" if any(folder.iterdir()) else "empty"
-    return {"folder": None if folder is None else str(folder), "state": state, "kernels_digest": digest()}
+    with_jaws = "compiled" if is_compiled(jaws=True) else "compiled when a table asks"
+    names = {"folder": None if folder is None else str(folder), "state": state, "with_jaws": with_jaws}
+    return names | {"kernels_digest": digest()}
 
 
 def _record_engine() -> dict[str, str]:
@@ -136,14 +144,14 @@ def _port(port: int) -> dict[str, Any]:
         return {"port": port, "free": False}
 
 
-def _self_test() -> dict[str, Any]:
+def _self_test(jaws: bool) -> dict[str, Any]:
     """The physics' own, and how long it took: the first time with the compiler."""
     import time
 
     from physics.self_test import self_test
 
     started = time.perf_counter()
-    result = self_test()
+    result = self_test(jaws)
     seconds = round(time.perf_counter() - started, 3)
     return {"ok": result.ok, "digest": result.digest, "events": result.events, "seconds": seconds}
 
@@ -152,7 +160,7 @@ def _faults(report: dict[str, Any]) -> list[str]:
     """What does not work, in words."""
     faults = [f"{name} is not installed" for name in LIBRARIES if report["versions"][name] is None]
     faults += [f"package {name} is not found" for name in PACKAGES if report["packages"][name] is None]
-    if not report["self_test"]["ok"]:
+    if not all(report[name]["ok"] for name in ("self_test", "self_test_with_jaws") if name in report):
         faults.append("the physics gives two answers to the same shot")
     if report["database"]["usable"] is False:
         faults.append(f"the database {report['database']['url']} cannot be written")

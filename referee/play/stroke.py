@@ -61,6 +61,11 @@ class Stroke:
     ruling: Ruling
     game: Game
 
+    def __repr__(self) -> str:
+        what = self.action.decision or self.shot
+        rest = f", {self.result!r}" if self.result is not None else ""
+        return f"<Stroke {self.index} of seat {self.seat}: {what}{rest}>"
+
 
 def start_game(rules: EightBall, seeds: GameSeeds, breaker: int = 0) -> Game:
     """A new game, racked from its own seeds."""

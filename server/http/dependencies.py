@@ -6,7 +6,7 @@ from typing import Annotated
 from fastapi import Depends, Header, Query, Request, Response
 from sqlalchemy import Connection
 
-from server.errors import Unauthorized
+from server.errors import Unauthorized, invalid_field
 from server.http.commands import Answer, Command
 from server.http.describe import NUMBER, PAGE_LIMIT, PLACE, SEARCH
 from server.security.addresses import origin
@@ -204,6 +204,13 @@ PageDep = Annotated[paging.PagePosition | None, Depends(_place)]
 """Of a list whose rows are in the order they were made."""
 Limit = Annotated[int, Depends(_limit)]
 Search = Annotated[str | None, Depends(_search)]
+
+
+def flag(field: str, text: str | None) -> bool | None:
+    """A parameter that is true, false or not given; raises `Invalid`, which the framework's own refusal is not."""
+    if text not in (None, "true", "false"):
+        raise invalid_field(field, text, "true or false")
+    return None if text is None else text == "true"
 
 
 def respond(answer: Answer) -> Response:

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Response
 
 from protocol import AgentList, AgentRequest, AgentToken, AgentView
-from server.errors import Forbidden, Invalid, NameTaken, Unauthorized, invalid_field
+from server.errors import Forbidden, Invalid, NameTaken, Unauthorized
 from server.http.commands import parse_body
 from server.http.dependencies import (
     ANYBODY,
@@ -19,6 +19,7 @@ from server.http.dependencies import (
     Search,
     Sent,
     Visitor,
+    flag,
     respond,
 )
 from server.http.describe import OWNED, describe
@@ -52,7 +53,7 @@ def listing(
     ] = None,
 ) -> AgentList:
     """Agents in order of registration."""
-    return agents.listing(context, _flag("house", house), search, after, limit)
+    return agents.listing(context, flag("house", house), search, after, limit)
 
 
 @router.get("/me", **describe(Forbidden), summary="The calling agent")
@@ -76,9 +77,3 @@ def revoke(agent_id: str, context: ContextDep, caller: Authenticated) -> Respons
     """The agent is left without a token; the organiser can give it a new one."""
     agents.revoke(context, agent_id, caller)
     return Response(status_code=204)
-
-
-def _flag(field: str, text: str | None) -> bool | None:
-    if text not in (None, "true", "false"):
-        raise invalid_field(field, text, "true or false")
-    return None if text is None else text == "true"

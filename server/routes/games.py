@@ -21,7 +21,7 @@ from server.errors import (
     Unauthorized,
     VersionRequired,
 )
-from server.http.dependencies import ANYBODY, ContextDep, Cursor, InHand, Limit, MoveDep, Reader, Sent, respond
+from server.http.dependencies import ANYBODY, ContextDep, Cursor, InHand, Limit, MoveDep, Reader, Sent, flag, respond
 from server.http.describe import OWNED, describe
 from server.services.play import forfeits, history, strokes
 from server.services.play.clock import ledger
@@ -35,7 +35,12 @@ RECORD_TYPE = "application/x-ndjson"
 SVG = "image/svg+xml"
 STANDS_ALONE = {"Content-Security-Policy": "default-src 'none'"}
 Theme = Annotated[str, Query(description="`dark` for screens, `light` for paper")]
-Upright = Annotated[bool, Query(description="the head string on top instead of on the left")]
+Upright = Annotated[
+    str,
+    Query(
+        description="true: the head string on top instead of on the left", json_schema_extra={"enum": ["true", "false"]}
+    ),
+]
 
 
 @router.get("", **describe(NotFound, Unauthorized, success={200: GameAnswer}, token=False), summary="How a game stands")
@@ -116,9 +121,9 @@ def shots(game_id: str, context: ContextDep, cursor: Cursor, limit: Limit) -> Sh
     dependencies=[ANYBODY],
     summary="A picture of how the balls lie",
 )
-def position_picture(game_id: str, context: ContextDep, theme: Theme = "dark", upright: Upright = False) -> Response:
+def position_picture(game_id: str, context: ContextDep, theme: Theme = "dark", upright: Upright = "false") -> Response:
     """To scale. `ETag` is the game's version."""
-    drawn, version = pictures.position(context, game_id, theme, upright)
+    drawn, version = pictures.position(context, game_id, theme, flag("upright", upright) is True)
     return Response(drawn, media_type=SVG, headers=STANDS_ALONE | {"ETag": f'"{version}"', "Cache-Control": "no-cache"})
 
 
@@ -129,10 +134,10 @@ def position_picture(game_id: str, context: ContextDep, theme: Theme = "dark", u
     summary="A picture of what a stroke did",
 )
 def stroke_picture(
-    game_id: str, number: str, context: ContextDep, theme: Theme = "dark", upright: Upright = False
+    game_id: str, number: str, context: ContextDep, theme: Theme = "dark", upright: Upright = "false"
 ) -> Response:
     """Paths, ghost ball, cue and call, to scale. `number` counts the strokes and decisions of the history from 0."""
-    drawn = pictures.stroke(context, game_id, number, theme, upright)
+    drawn = pictures.stroke(context, game_id, number, theme, flag("upright", upright) is True)
     return Response(drawn, media_type=SVG, headers=STANDS_ALONE | {"Cache-Control": "public, max-age=86400"})
 
 

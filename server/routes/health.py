@@ -36,9 +36,10 @@ def readiness(context: Context) -> dict[str, str]:
     """What the server is ready with; raises `Draining` or `Unavailable`."""
     if context.wakeups.draining.is_set():
         raise Draining("the server is shutting down")
-    if context.warm_up_failed.is_set():
+    kernels = context.kernels.straight
+    if kernels.failed.is_set():
         raise Draining("the physics kernels could not be loaded; the log says why")
-    if not context.warm.is_set():
+    if kernels.tested is None or not kernels.ready.is_set():
         raise Draining("the physics kernels are being loaded")
     if context.pulse.is_lost(context.time.now()):
         raise Unavailable("the database does not take this process's heartbeats")
@@ -48,11 +49,10 @@ def readiness(context: Context) -> dict[str, str]:
         raise Unavailable("the database's disk is full")
     if not is_current(context.database):
         raise Draining("the database has the tables of another version")
-    (tested,) = context.self_test
     return {
         "status": "ready",
         "engine": this_engine().digest,
-        "self_test": tested.digest,
+        "self_test": kernels.tested.digest,
         "database": "postgresql" if context.database.is_shared else "sqlite",
         "schema": str(head()),
     }

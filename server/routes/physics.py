@@ -46,6 +46,7 @@ async def simulate(context: ContextDep, command: Simulation) -> Response:
 
     def work() -> SimulateAnswer:
         request = parse(command, SimulateRequest)
+        context.kernels.require(request.table_model)
         budget.count(context, command, request.game, 1)
         context.metrics.simulated.inc()
         return simulations.simulate(request)
@@ -65,6 +66,7 @@ async def simulate_batch(context: ContextDep, _caller: SimulatingMany, command: 
 
 def _batch(context: Context, command: Command) -> BatchAnswer:
     request = parse(command, BatchRequest)
+    context.kernels.require(request.table_model)
     context.limits.count_shots(command.caller, len(request.shots))
     budget.count(context, command, request.game, len(request.shots))
     context.metrics.simulated.inc(len(request.shots))
@@ -80,9 +82,13 @@ async def min_elevation(
     context: ContextDep, _caller: Simulating, body: Body, content_type: ContentType = None
 ) -> Response:
     """null when there is none up to the table's greatest."""
-    return await _answered(
-        context, lambda: simulations.min_elevation(parse_body(body, content_type, MinElevationRequest))
-    )
+
+    def work() -> MinElevationAnswer:
+        request = parse_body(body, content_type, MinElevationRequest)
+        context.kernels.require(request.table_model)
+        return simulations.min_elevation(request)
+
+    return await _answered(context, work)
 
 
 async def _answered(context: Context, work: Callable[[], BaseModel]) -> Response:

@@ -152,10 +152,43 @@ def test_every_arrangement_is_equally_likely():
         ({"seed": 1, "gap": -1e-9}, "gap"),
         ({"seed": 1, "gap": math.nan}, "gap"),
         ({"seed": 1, "gap": 0.01}, "gap"),
-        ({"seed": 1, "game": "nine_ball"}, "game"),
+        ({"seed": 1, "game": "snooker"}, "game"),
     ],
 )
 def test_bad_arguments_are_named(arguments, field):
     with pytest.raises(InvalidState) as caught:
         rack(TABLE, **arguments)
     assert caught.value.field == field
+
+
+@pytest.mark.parametrize(
+    ("game", "rows", "fixed"),
+    [
+        ("nine_ball", (1, 2, 3, 2, 1), {1: 0, 9: 4}),
+        ("ten_ball", (1, 2, 3, 4), {1: 0, 10: 4}),
+        ("straight_pool", (1, 2, 3, 4, 5), {}),
+    ],
+)
+def test_racks_of_other_games(game, rows, fixed):
+    """Rules of the WPA: the balls, the shape, the places that are laid down; the others are drawn."""
+    seen = []
+    for seed in range(40):
+        state = rack(TABLE, game, seed=seed, gap=0.0)
+        count = sum(rows)
+        assert state.balls == tuple(range(count + 1))
+        by_place = sorted(range(1, count + 1), key=lambda ball: (-state.position(ball)[1], state.position(ball)[0]))
+        depths = sorted({round(state.position(ball)[1], 9) for ball in by_place}, reverse=True)
+        assert [sum(round(state.position(ball)[1], 9) == depth for ball in by_place) for depth in depths] == list(rows)
+        assert all(by_place[place] == ball for ball, place in fixed.items())
+        assert state.position(by_place[0]) == pytest.approx(TABLE.foot_spot)
+        assert np.nanmin(distances(state)) == pytest.approx(2.0 * TABLE.ball_radius)
+        seen.append(tuple(by_place))
+    assert len(set(seen)) > 30
+
+
+def test_the_back_corners_of_ten_ball_are_the_two_and_the_three():
+    for seed in range(20):
+        state = rack(TABLE, "ten_ball", seed=seed, gap=0.0)
+        back = min(state.position(ball)[1] for ball in range(1, 11))
+        row = sorted((state.position(ball)[0], ball) for ball in range(1, 11) if state.position(ball)[1] < back + 1e-9)
+        assert {row[0][1], row[-1][1]} == {2, 3}

@@ -97,8 +97,8 @@ def test_a_full_disk(own_server, small_disk):
 def test_a_small_write_that_succeeds_says_nothing(tmp_path):
     """Ready again when as much as a large stroke was taken, and not when a heartbeat was."""
     stage = Stage(tmp_path / "small.db")
-    stage.context.warm.set()
-    stage.context.self_test.append(None)
+    stage.context.kernels.straight.start()
+    assert stage.context.kernels.straight.ready.wait(600)
     heartbeat.begin(stage.context, "p", alone=True)
     stage.context.database.writes_fail.set()
     heartbeat.beat(stage.context, "p")

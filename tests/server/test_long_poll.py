@@ -129,6 +129,14 @@ def test_a_signal_sends_open_polls_home_and_stops_the_server_within_seconds(own_
     assert "Traceback" not in server.log
 
 
+def test_a_server_told_to_stop_leaves_its_compiler_behind(own_server, tmp_path):
+    """Seen in one of thirty: the interpreter's end took LLVM's memory from under the thread that loads the kernels."""
+    server = own_server(POOLIAD_CACHE_DIR=str(tmp_path / "empty"))
+    server.process.terminate()
+    assert server.process.wait(60) == 0
+    assert "Traceback" not in server.log
+
+
 def test_the_polls_of_a_token_are_bounded(own_server, player_at):
     """Each looks into the database every two seconds: two thousand of one agent kept it busy for all others."""
     server = own_server(POOLIAD_POLLS="2")

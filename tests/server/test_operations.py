@@ -153,9 +153,9 @@ def test_ready_names_engine_self_test_database_and_schema(server):
 def test_physics_that_contradicts_itself_is_not_ready(tmp_path, monkeypatch, caplog):
     stage = Stage(tmp_path / "ready.db")
     wrong = SelfTest(ok=False, digest="0" * 64, events=1)
-    monkeypatch.setattr(warmup, "self_test", lambda: wrong)
-    warmup.start(stage.context)
-    assert stage.context.warm_up_failed.wait(30)
+    monkeypatch.setattr(warmup, "self_test", lambda jaws: wrong)
+    stage.context.kernels.straight.start()
+    assert stage.context.kernels.straight.failed.wait(30)
     with pytest.raises(Draining):
         readiness(stage.context)
     assert "two answers" in caplog.text

@@ -148,7 +148,8 @@ def test_nobody_pays_for_an_outage(tmp_path):
     flag(stage.context)
     with pytest.raises(Unavailable):
         seats.concede()
-    stage.context.warm.set()
+    stage.context.kernels.straight.start()
+    assert stage.context.kernels.straight.ready.wait(600)
     with pytest.raises(Unavailable, match="heartbeats"):
         readiness(stage.context)
     heartbeat.beat(stage.context, "p")

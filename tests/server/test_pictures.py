@@ -58,4 +58,14 @@ def test_a_theme_that_is_not_there_is_refused(played):
     problem = answer.json()
     assert (answer.status_code, problem["code"], problem["field"]) == (422, "invalid", "theme")
     assert (problem["value"], problem["allowed"]) == ("<script>", "one of dark, light")
-    assert mover.get(f"/v1/games/{game}/position.svg", upright="maybe").status_code == 422
+
+
+@pytest.mark.parametrize("address", ["position.svg", "shots/0.svg"])
+@pytest.mark.parametrize("value", ["maybe", "null", "1", ""])
+def test_a_flag_that_is_none_is_refused_as_everything_is(played, address, value):
+    """The framework's own refusal was JSON of another shape, which no client of ours reads."""
+    mover, game, _entry = played
+    answer = mover.get(f"/v1/games/{game}/{address}", upright=value)
+    problem = answer.json()
+    assert (answer.status_code, answer.headers["content-type"]) == (422, "application/problem+json")
+    assert (problem["code"], problem["field"], problem["allowed"]) == ("invalid", "upright", "true or false")

@@ -169,9 +169,9 @@ def test_kernels_that_cannot_be_loaded_are_logged_and_reported(tmp_path, monkeyp
         raise OSError("no space for the kernels")
 
     monkeypatch.setattr(warmup, "self_test", fail)
-    warmup.start(context)
-    assert context.warm_up_failed.wait(60)
-    assert not context.warm.is_set()
+    context.kernels.straight.start()
+    assert context.kernels.straight.failed.wait(60)
+    assert not context.kernels.straight.ready.is_set()
     assert "no space for the kernels" in caplog.text
     with pytest.raises(Draining, match="could not be loaded"):
         readiness(context)

@@ -70,10 +70,8 @@ class House:
         """Run the bot whenever no other server process does."""
         assert self._url is not None
         url = await asyncio.shield(self._url)
-        while not (self._context.warm.is_set() or self._context.warm_up_failed.is_set()):
-            await asyncio.sleep(
-                LOOK_EVERY
-            )  # else the bot would compile the physics beside the server that does already
+        while not self._context.kernels.straight.is_settled:  # else the bot would compile them beside the server
+            await asyncio.sleep(LOOK_EVERY)
         while True:
             try:
                 token = await run_in_threadpool(house_bots.take, self._context, agent_id, self._holder)

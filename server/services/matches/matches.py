@@ -116,6 +116,7 @@ def _created(writing: Writing, command: Command) -> Answer:
     _require_right(request, command.caller)
     _require_agents(writing.connection, request)
     challenges.require_usual_table(request, command.caller)
+    writing.context.kernels.require(Table.from_dict(request.table))
     _require_start(request)
     challenger = None if command.caller.is_organiser else command.caller.id
     house_bots.require_terms(writing, request, challenger)

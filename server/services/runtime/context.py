@@ -1,6 +1,5 @@
 """What every service works with: made once by `create_app`, handed down, never global."""
 
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -9,7 +8,6 @@ from typing import Final, TypeVar
 from anyio import CapacityLimiter, to_thread
 from sqlalchemy import Connection
 
-from physics.self_test import SelfTest
 from referee.play.clock import nanoseconds
 from server import failpoints
 from server.failpoints import Failpoint
@@ -22,6 +20,7 @@ from server.services.play.long_strokes import LongStrokes
 from server.services.runtime.heartbeat_health import HeartbeatHealth
 from server.services.runtime.time import TimeSource
 from server.services.runtime.wakeups import Wakeups
+from server.services.runtime.warmup import Kernels
 from server.services.tournaments.tournament_cache import TournamentCache, TournamentState
 from server.services.watch.ladder_cache import KeptLadder
 from server.services.watch.presence import Presence
@@ -38,9 +37,8 @@ class Context:
     """One server's parts.
 
     Attributes:
-        warm: set when the kernels are loaded; warm_up_failed: set when they could not be.
+        kernels: which of the physics' compiled kernels are loaded.
         seen: running games that need not be read again.
-        self_test: what the physics' self-test came to, once it has passed.
         aside: threads for what must not wait behind requests: signs of life, the timer, what is asked about health.
         pulse: whether the signs of life reach the database.
         in_hand: the requests that are being worked on.
@@ -54,9 +52,7 @@ class Context:
     time: TimeSource = field(default_factory=TimeSource)
     wakeups: Wakeups = field(default_factory=Wakeups)
     presence: Presence = field(default_factory=Presence)
-    warm: threading.Event = field(default_factory=threading.Event)
-    warm_up_failed: threading.Event = field(default_factory=threading.Event)
-    self_test: list[SelfTest] = field(default_factory=list)
+    kernels: Kernels = field(default_factory=Kernels)
     metrics: Metrics = field(default_factory=Metrics)
     aside: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(THREADS_ASIDE))
     pulse: HeartbeatHealth = field(init=False)

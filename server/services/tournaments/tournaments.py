@@ -12,6 +12,7 @@ from typing import Any, Final
 
 from sqlalchemy import Connection, Row, insert, select
 
+from physics import Table
 from protocol import (
     DisqualifyRequest,
     EntriesPage,
@@ -114,6 +115,7 @@ def listing(
 def _created(writing: Writing, command: Command) -> Answer:
     request = parse(command, TournamentRequest)
     spec = _spec(request)
+    writing.context.kernels.require(Table.of(spec.table))
     row = {
         "id": f"tournament_{secrets.token_hex(8)}",
         "name": spec.name,
