@@ -98,7 +98,7 @@ def _preloads(contents: Mapping[str, bytes]) -> bytes:
 
 
 @router.get("/")
-def home(request: Request) -> Response:
+async def home(request: Request) -> Response:
     """The page; the one file that may be shown in a frame, by those whom the settings name."""
     answer = _served(request, HOME)
     if named := context_of(request).settings.framing_origins:
@@ -119,7 +119,7 @@ def _interface(app: FastAPI) -> File:
 
 
 @router.get("/web/{name}")
-def part(name: str, request: Request) -> Response:
+async def part(name: str, request: Request) -> Response:
     """A script, the style sheet, the rules in words."""
     return _served(request, name)
 
