@@ -105,7 +105,7 @@ def hash_of(outputs: Any) -> str:
     for result in outputs:
         total.update(result.final.positions.tobytes())
         for event in result.events:
-            total.update(repr(event).encode())
+            total.update(repr(event.to_dict()).encode())
     return total.hexdigest()
 
 

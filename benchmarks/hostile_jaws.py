@@ -317,7 +317,7 @@ EDGES = {
 
 def table_for(kind: str, rng: Rng) -> physics.RealTable:
     """The table a class is played on, a nine-foot one: without the test of the cue, so that every stroke is played."""
-    table = physics.RealTable.of_size("nine_foot").replace(cue_test=False, cushion=str(rng.choice(LAWS)))
+    table = physics.RealTable.of_size("nine_foot").replace(cue_test=False, flight=False, cushion=str(rng.choice(LAWS)))
     if kind != "jaws: limits of the table":
         return table
     while True:

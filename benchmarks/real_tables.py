@@ -21,7 +21,7 @@ from benchmarks.command import main
 from benchmarks.recording import ROOT, Row, Tables
 
 OLYMPIAD = physics.Table.olympiad()
-NINE = physics.RealTable.of_size("nine_foot")
+NINE = physics.RealTable.of_size("nine_foot").replace(flight=False)
 SAME_LAWS = NINE.replace(
     cushion="factors", ball="consistent", cue_end_mass=0.0, mu_roll=0.015, mu_ball=0.01, e_ball=1.0
 )

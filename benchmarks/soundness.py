@@ -80,7 +80,7 @@ def judge(table: physics.Table, states: Floats, batch: physics.Batch) -> Verdict
     """Look at the ends of a batch of shots that started from ``states``."""
     final = batch.positions
     gone = np.isnan(final).any(axis=2)
-    accounted = (batch.pocket >= 0) | (batch.pocket == -2)
+    accounted = (batch.pocket >= 0) | (batch.pocket == -2) | (batch.facts["off_table"] >= 0)
     deep, out = overlap(table, final), beyond(table, final)
     permitted = np.maximum(overlap(table, states), PERMITTED)
     refused = np.isin(batch.status, NOT_PLAYED)

@@ -1,6 +1,6 @@
 """Kernels without a filter of pairs and without a broad phase, in a process of their own, to compare bits with.
 
-Every pair of balls is solved for, and every ball looks at four nose lines, twelve jaws and six holes each time. What
+Every pair of balls is solved for, and every ball, rolling or flying, looks at all noses, jaws and holes each time. What
 the shipped kernels leave out must have been nothing: positions, pockets, facts and counts of events are the same bits.
 """
 
@@ -22,10 +22,11 @@ PREDICTION = "physics.kernels.detect.prediction"
 def look_at_everything(*_: object) -> None:
     """In a new process: replaces the filter and the broad phase before the kernels load."""
     from physics.kernels import layout as at
-    from physics.kernels.compiling import kernel, load
+    from physics.kernels.compiling import kernel, load, load_integer
     from physics.kernels.detect import mouths
+    from physics.kernels.detect.air import meet_in_air
     from physics.kernels.detect.boundary import Coming, meet_octagon
-    from physics.kernels.path import along
+    from physics.kernels.path import along, rise_of
     from physics.kernels.workspace import by_table
 
     usual = importlib.import_module(PREDICTION).partners
@@ -33,11 +34,25 @@ def look_at_everything(*_: object) -> None:
     meet_mouth = mouths.meet_mouth
 
     @kernel
-    def everyone(s: Any, path: Any, now: float, limit: float) -> int:
-        return usual(s, path, now, limit) | 0xFFFF
+    def everyone(s: Any, i: int, path: Any, now: float, limit: float) -> int:
+        return usual(s, i, path, now, limit) | 0xFFFF
 
     @kernel
-    def meet_everything(s: Any, path: Any, lasts: float) -> Any:
+    def near_all(_half: float, _place: float, _speed: float, _lasts: float) -> tuple[float, float]:
+        return -1.0, -1.0
+
+    @kernel
+    def always(_s: Any, _pocket: int, _path: Any, _lasts: float) -> bool:
+        return True
+
+    @kernel
+    def meet_octagon_of(s: Any, _i: int, path: Any, _now: float, lasts: float) -> Any:
+        return meet_octagon(s, path, lasts)
+
+    @kernel
+    def meet_everything(s: Any, i: int, path: Any, now: float, lasts: float) -> Any:
+        if load_integer(s.k, at.MOTION + i) == at.FLYING:
+            return meet_in_air(s, path, rise_of(s, i, now), lasts)
         best = Coming(lasts, at.NOTHING, 0)
         for line in range(4):
             sign = 1.0 if line & 1 else -1.0
@@ -56,7 +71,9 @@ def look_at_everything(*_: object) -> None:
         return best
 
     variants.replace(PREDICTION, "partners", everyone)
-    variants.replace(PREDICTION, "meet_boundary", by_table(meet_octagon, meet_everything))
+    variants.replace(PREDICTION, "meet_boundary", by_table(meet_octagon_of, meet_everything))
+    variants.replace("physics.kernels.detect.air", "nearest_to", near_all)
+    variants.replace("physics.kernels.detect.air", "may_come_to", always)
 
 
 def hashes_of(batch: physics.Batch) -> Hashes:

@@ -29,7 +29,81 @@ def rack_on_the_olympiads_table() -> str:
     return pictures.svg(physics.rack(table, seed=7), table=table, shot=physics.Shot(9.0, 270.0, 5.0), theme="light")
 
 
-PICTURES: dict[str, Callable[[], str]] = {"shot.svg": shot_on_a_real_table, "rack.svg": rack_on_the_olympiads_table}
+Scene = tuple[dict[int, tuple[float, float]], physics.Shot]
+FLIGHTS: dict[str, Scene] = {
+    "masse": ({0: (0.5, 0.9), 1: (0.5, 1.25)}, physics.Shot(4.0, 80.0, 55.0, -14.0, 6.0)),
+    "jump_15_cm": ({0: (0.635, 0.6), 1: (0.635, 0.75), 2: (0.635, 1.7)}, physics.Shot(2.5, 90.0, 50.0, 0.0, 15.0)),
+    "jump_30_cm": ({0: (0.635, 0.6), 1: (0.635, 0.9), 2: (0.635, 1.7)}, physics.Shot(3.0, 90.0, 45.0, 0.0, 15.0)),
+    "jump_into_a_rack": ({0: (0.635, 1.1)}, physics.Shot(3.0, 270.0, 30.0, 0.0, 8.0)),
+    "hop_into_a_rail": ({0: (0.7, 1.2)}, physics.Shot(3.0, 0.0, 30.0, 0.0, 6.0)),
+}
+"""The named scenes of physics.md, "Flight": balls, and the stroke; a whole rack stands in one of them."""
+
+SIDE_SCALE, SIDE_STRIP = 1000.0, 260.0
+"""Of the side views: picture units a metre, and the height of each."""
+
+
+def flight(name: str) -> physics.Result:
+    """A named scene played on a nine-foot table."""
+    table = physics.Table.nine_foot()
+    positions, shot = FLIGHTS[name]
+    if name == "jump_into_a_rack":
+        rack = physics.rack(table, "eight_ball", seed=3)
+        positions = {ball: (float(x), float(y)) for ball, (x, y) in enumerate(rack.positions)} | positions
+    return physics.simulate(table, physics.TableState.from_positions(positions), shot)
+
+
+def seen_from_above(name: str) -> Callable[[], str]:
+    """Draws a named scene."""
+    return lambda: pictures.svg(flight(name), shot=FLIGHTS[name][1])
+
+
+def heights() -> str:
+    """The cue ball of every named scene from the side, to scale: its height over the way it has gone in plan."""
+    strips = []
+    for place, name in enumerate(FLIGHTS):
+        base = (place + 1) * SIDE_STRIP - 30.0
+        strips.append(f'<path d="M0 {base:.0f}H1200" stroke="#2c6e49" stroke-width="4"/>')
+        strips.append(f'<text x="8" y="{base - SIDE_STRIP + 60:.0f}" font-size="26">{name.replace("_", " ")}</text>')
+        strips.extend(_ball_from_the_side(x, height, base, look) for x, height, look in _side_view(name))
+    view = f'viewBox="0 0 1200 {SIDE_STRIP * len(FLIGHTS):.0f}"'
+    background = '<rect width="100%" height="100%" fill="#fff"/>'
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" {view} font-family="sans-serif">{background}{"".join(strips)}</svg>'
+    )
+
+
+def _side_view(name: str) -> list[tuple[float, float, str]]:
+    """Balls from the side: way in plan, height (m) and look; the cue ball at moments, and the ball that it jumps."""
+    result = flight(name)
+    times = np.arange(0.0, min(0.6, result.duration), 0.02)
+    positions, high = result.paths(times)
+    there = positions[:, 0][~np.isnan(positions[:, 0, 0])]
+    steps = np.linalg.norm(np.diff(there, axis=0), axis=1)
+    ways = np.concatenate([[0.0], np.cumsum(steps)])
+    looks = [
+        (0.07 + float(way), float(z), 'fill="none" stroke="#555"') for way, z in zip(ways, high[:, 0], strict=False)
+    ]
+    positions_at_first = FLIGHTS[name][0]
+    if name.startswith("jump") and 1 in positions_at_first:
+        looks.append((0.07 + positions_at_first[1][1] - positions_at_first[0][1], 0.0, 'fill="#e8b21e"'))
+    return [look for look in looks if look[0] < 1.15]
+
+
+def _ball_from_the_side(way: float, height: float, base: float, look: str) -> str:
+    radius = physics.Table.nine_foot().ball_radius
+    middle = base - SIDE_SCALE * (height + radius)
+    return (
+        f'<circle cx="{SIDE_SCALE * way:.1f}" cy="{middle:.1f}" r="{SIDE_SCALE * radius:.1f}" stroke-width="2" {look}/>'
+    )
+
+
+PICTURES: dict[str, Callable[[], str]] = {
+    "shot.svg": shot_on_a_real_table,
+    "rack.svg": rack_on_the_olympiads_table,
+    "heights.svg": heights,
+    **{f"{name}.svg": seen_from_above(name) for name in FLIGHTS},
+}
 """Every picture, by its file's name."""
 
 

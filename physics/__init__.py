@@ -7,7 +7,7 @@ Importing this package compiles nothing and loads no compiler: kernels load at t
 """
 
 from physics.batch import Batch, simulate_batch
-from physics.contact import contact_time
+from physics.contact import contact_time, ring_contact_time
 from physics.cue import Unplayable, check, min_elevation
 from physics.cue_ball import squirt
 from physics.errors import InvalidShot, InvalidState, InvalidTable, PhysicsError
@@ -53,6 +53,7 @@ __all__ = [
     "min_elevation",
     "rack",
     "resume",
+    "ring_contact_time",
     "simulate",
     "simulate_batch",
     "squirt",

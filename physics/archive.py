@@ -12,19 +12,24 @@ from numpy.typing import NDArray
 from physics.constants import N_BALLS
 from physics.errors import InvalidTable
 from physics.facts import FACTS_WORDS
-from physics.kernels.layout import STATE_WIDTH, TRACE_WIDTH
+from physics.kernels.layout import REAL_STATE_WIDTH, REAL_TRACE_WIDTH, STATE_WIDTH, TRACE_WIDTH
 from physics.table import Table
 
 File = str | PathLike[str]
 Arrays = dict[str, NDArray[Any]]
 
-SHAPES: dict[str, tuple[type[np.generic], tuple[tuple[int, ...], ...]]] = {
-    "start": (np.float64, ((1, 2 * N_BALLS), (1, N_BALLS * STATE_WIDTH))),
-    "final": (np.float64, ((1, 2 * N_BALLS),)),
-    "facts": (np.int32, ((1, FACTS_WORDS),)),
-    "trace": (np.float64, ((-1, TRACE_WIDTH),)),
-}
-"""Type and possible shapes of each array; -1: any number. ``trace`` may be missing."""
+Shapes = dict[str, tuple[type[np.generic], tuple[tuple[int, ...], ...]]]
+
+
+def shapes(jaws: bool) -> Shapes:
+    """Type and possible shapes of each array, with jaws or without; -1: any number. ``trace`` may be missing."""
+    state, event = (REAL_STATE_WIDTH, REAL_TRACE_WIDTH) if jaws else (STATE_WIDTH, TRACE_WIDTH)
+    return {
+        "start": (np.float64, ((1, 2 * N_BALLS), (1, N_BALLS * state))),
+        "final": (np.float64, ((1, 2 * N_BALLS),)),
+        "facts": (np.int32, ((1, FACTS_WORDS),)),
+        "trace": (np.float64, ((-1, event),)),
+    }
 
 
 def write(file: File, table: Table, arrays: Arrays) -> None:
@@ -40,9 +45,9 @@ def read(file: File) -> tuple[Table, Arrays]:
         with Path(file).open("rb") as source, np.load(source, allow_pickle=False) as saved:
             arrays = dict(saved)
         table = Table.from_dict(json.loads(str(arrays.pop("table"))))
-        for name, (kind, shapes) in SHAPES.items():
+        for name, (kind, allowed) in shapes(table.has_jaws).items():
             if name in arrays or name != "trace":
-                _refuse(name, arrays[name], kind, shapes)
+                _refuse(name, arrays[name], kind, allowed)
     except (KeyError, ValueError, TypeError, AttributeError, EOFError, BadZipFile, InvalidTable) as error:
         raise ValueError(f"file = {str(file)!r}: must be what Result.save wrote ({error})") from error
     return table, arrays

@@ -94,6 +94,10 @@ RANGES: Final[dict[str, Range]] = {
     "cushion_spin": Range(0.0, 1.0),
     "v_max": Range(0.1, 20.0, "m/s"),
     "theta_max": Range(0.0, 89.0, "deg"),
+    "e_cloth": Range(0.0, 0.9),
+    "e_strike": Range(0.0, 0.9),
+    "e_rail": Range(0.0, 0.9),
+    "mu_rail": Range(0.0, 1.0),
     "rack_gap": Range(0.0, 1e-3, "m"),
 }
 
@@ -128,7 +132,11 @@ class RealTable(Table):
         e_cushion, mu_cushion: restitution and friction of the nose for ``han`` (0.85 and 0.2: choice) and ``mathavan``
             (0.98 and 0.14: Mathavan), each 0 to 1. Another law brings its own along.
         ball: the law of two balls: ``alciatore`` (friction falls with slip: TP A-14), ``consistent``, ``fastfiz``.
-        flight: whether balls leave the cloth. Not yet: only False.
+        flight: whether balls leave the cloth (True): jump shots, hops, balls off the table. What follows counts then.
+        e_cloth: 0.5 (Alciatore), 0 to 0.9: restitution of a ball that lands. e_strike: 0.5 (choice: as e_cloth), 0 to
+            0.9: of the cue ball that the strike drives into the cloth; the tip is still at it then.
+        e_pressed: 0 (choice), 0 to e_cloth: of a ball that a cushion presses down; with 0 no rail hit lifts a ball.
+        e_rail, mu_rail: 0.5 and 0.2 (choice), 0 to 0.9 and 0 to 1: restitution and friction of the rails' tops.
     """
 
     width: float = SIZES["nine_foot"][0]
@@ -159,7 +167,12 @@ class RealTable(Table):
     e_cushion: float = 0.85
     mu_cushion: float = 0.2
     ball: BallLaw = "alciatore"
-    flight: bool = False
+    flight: bool = True
+    e_cloth: float = 0.5
+    e_strike: float = 0.5
+    e_pressed: float = 0.0
+    e_rail: float = 0.5
+    mu_rail: float = 0.2
 
     FIXED: ClassVar[tuple[str, ...]] = ("name", "width", "length")
     has_jaws: ClassVar[bool] = True
@@ -190,8 +203,9 @@ class RealTable(Table):
         _refuse_unless("ball", self.ball, get_args(BallLaw))
         if not isinstance(self.cue_test, bool):
             raise InvalidTable("cue_test", self.cue_test, "must be True or False")
-        if self.flight is not False:
-            raise InvalidTable("flight", self.flight, "must be False")
+        if not isinstance(self.flight, bool):
+            raise InvalidTable("flight", self.flight, "must be True or False")
+        object.__setattr__(self, "e_pressed", _number("e_pressed", self.e_pressed, Range(0.0, self.e_cloth)))
         self._refuse_impossible_mouth("corner")
         self._refuse_impossible_mouth("side")
 
@@ -230,6 +244,11 @@ class RealTable(Table):
         u, v = mouth.hole_centre
         rho = self.contact_distance
         return math.dist((u, v), (rho, rho if mouth.in_corner else v)) > mouth.hole_radius
+
+    @property
+    def flies(self) -> bool:
+        """See ``Table.flies``."""
+        return self.flight
 
     @functools.cached_property
     def corner_shape(self) -> Mouth:
@@ -272,6 +291,24 @@ class RealTable(Table):
     def in_play(self, x: float, y: float) -> bool:
         """See ``Table.in_play``."""
         return bool(self._admits(x, y, constants.PLACEMENT_TOLERANCE))
+
+    def in_air(self, x: float, y: float, height: float) -> bool:
+        """See ``Table.in_air``: within the rails' outer edge, R from every edge, and above the top of the rails."""
+        u, v = 0.5 * self.width - abs(x - 0.5 * self.width), 0.5 * self.length - abs(y - 0.5 * self.length)
+        if not (u >= -self.rail_width and v >= -self.rail_width):
+            return False
+        least = self.ball_radius - constants.PLACEMENT_TOLERANCE
+        above_nose = height - (self.nose_height - self.ball_radius)
+        if above_nose >= least:
+            return True
+        reach = math.sqrt(least * least - above_nose * above_nose)
+        end = abs(y - 0.5 * self.length)
+        corner, beside = self.corner_shape, self.side_shape
+        if u >= reach and v >= reach:
+            return True
+        if u < corner.nose_end and v < corner.nose_end:
+            return bool(_clear_of_jaw(corner, reach, u, v) and _clear_of_jaw(corner, reach, v, u))
+        return end < beside.nose_end and v >= reach and bool(_clear_of_jaw(beside, reach, end, u))
 
     def _admits(self, x: Any, y: Any, over_edge: float) -> Any:
         """Whether a centre may be at (x, y); ``over_edge``: by how much it may be beyond the drop edge, m."""

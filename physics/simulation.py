@@ -6,20 +6,22 @@ from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from physics import archive, notebook
 from physics.constants import EVENT_LIMIT, N_BALLS, PLACEMENT_TOLERANCE
 from physics.engine import kernels, workspace
 from physics.errors import InvalidShot, InvalidState
+from physics.events import OUT_OF_PLAY
 from physics.facts import FACTS_WORDS, Facts
-from physics.kernels.layout import A_VX, A_X, F_EVENTS, N_COUNTERS, SHOT_WIDTH, STATE_WIDTH, TRACE_WIDTH
+from physics.kernels import layout as at
+from physics.kernels.layout import F_EVENTS, N_COUNTERS, SHOT_WIDTH
 from physics.parameters import parameters
 from physics.shot import Shot
 from physics.state import TableState
 from physics.status import Status
 from physics.table import Table
-from physics.trajectory import Events, Snapshot, resting_states
+from physics.trajectory import PLACE, Events, Snapshot, resting_states, state_width
 
 TRACE_ROWS = 192
 """Events a trace has room for at first; a shot with more is simulated again with room for all."""
@@ -62,7 +64,7 @@ class Result:
     @cached_property
     def start(self) -> Snapshot:
         """All balls before the first event: at rest, or as the snapshot that was resumed had them."""
-        return Snapshot.from_states(0.0, self._start_states().reshape(N_BALLS, STATE_WIDTH))
+        return Snapshot.from_states(0.0, self._start_states().reshape(N_BALLS, -1))
 
     @property
     def final(self) -> TableState:
@@ -105,14 +107,40 @@ class Result:
         """
         if not 0.0 <= t <= self.duration:
             raise ValueError(f"t = {t!r}: must be in [0, {self.duration}] s, the duration of the shot")
-        rows = self._rows()
-        out = np.empty((1, N_BALLS * STATE_WIDTH))
-        kernels(self.table.has_jaws).state_at(
-            parameters(self.table), workspace(), self._start_states(), rows.reshape(1, -1), float(t), out
-        )
-        states = out.reshape(N_BALLS, STATE_WIDTH)
-        states[:, A_X:A_VX] += (0.5 * self.table.width, 0.5 * self.table.length)
+        states = self._states(np.array([[t]], dtype=np.float64)).reshape(N_BALLS, -1)
+        states[:, PLACE] += (0.5 * self.table.width, 0.5 * self.table.length)
         return Snapshot.from_states(t, states)
+
+    def paths(self, times: ArrayLike) -> tuple[Floats, Floats]:
+        """Where all balls are at n times (s), in any order: positions (n, 16, 2) m and heights (n, 16) m.
+
+        NaN for a ball that is not on the table then. The numbers of ``at``, many at once.
+
+        Raises:
+            ValueError: a time is outside [0, duration], ``times`` is not one row of numbers, or there is no trace.
+        """
+        wanted = np.asarray(times)
+        if wanted.ndim != 1 or wanted.dtype.kind not in "iuf":
+            raise ValueError(f"times = {times!r}: must be numbers, (n,)")
+        wanted = wanted.astype(np.float64)
+        if not ((wanted >= 0.0) & (wanted <= self.duration)).all():
+            raise ValueError(f"times = {times!r}: must be in [0, {self.duration}] s, the duration of the shot")
+        order = np.argsort(wanted, kind="stable")
+        states = np.empty((len(wanted), N_BALLS, state_width(self.table)))
+        states[order] = self._states(wanted[order].reshape(1, -1)).reshape(states.shape)
+        positions = states[:, :, PLACE] + (0.5 * self.table.width, 0.5 * self.table.length)
+        heights = states[:, :, at.A_Z].copy() if self.table.has_jaws else np.zeros(states.shape[:2])
+        away = np.isin(states[:, :, at.A_MOTION], OUT_OF_PLAY)
+        positions[away], heights[away] = np.nan, np.nan
+        return positions, heights
+
+    def _states(self, times: Floats) -> Floats:
+        """The kernels' states at ascending ``times`` (1, n), one row each."""
+        rows, start = self._rows(), self._start_states()
+        out = np.empty((times.shape[1], N_BALLS * state_width(self.table)))
+        find = kernels(self.table.has_jaws).states_at
+        find(parameters(self.table), workspace(), start, rows.reshape(1, -1), times, out)
+        return out
 
     def sample(self, dt: float) -> Iterator[Snapshot]:
         """Snapshots every ``dt`` seconds, the first at 0 and the last at the end.
@@ -160,8 +188,10 @@ class Result:
         return cls(table, arrays["start"], arrays["final"], arrays["facts"], trace, n_events)
 
     def _start_states(self) -> Floats:
-        """(1, 128): the balls before the first event, in the table's frame."""
-        return resting_states(self._start.reshape(N_BALLS, 2)) if self._start.size == 2 * N_BALLS else self._start
+        """(1, n): the balls before the first event, in the table's frame."""
+        if self._start.size == 2 * N_BALLS:
+            return resting_states(self.table, self._start.reshape(N_BALLS, 2))
+        return self._start
 
     def _rows(self) -> Floats:
         if self._trace is None:
@@ -212,7 +242,7 @@ def resume(table: Table, snapshot: Snapshot, trace: bool = True, event_limit: in
     if not isinstance(snapshot, Snapshot):
         raise InvalidState("snapshot", snapshot, "must be a physics.Snapshot")
     snapshot.refuse_impossible(table)
-    return _run(table, snapshot.to_states(), NO_SHOT, trace, event_limit)
+    return _run(table, snapshot.to_states(table), NO_SHOT, trace, event_limit)
 
 
 def _run(table: Table, states: Floats, stroke: Floats, trace: bool, event_limit: int) -> Result:
@@ -220,15 +250,16 @@ def _run(table: Table, states: Floats, stroke: Floats, trace: bool, event_limit:
     final, facts = np.empty((1, 2 * N_BALLS)), np.empty((1, FACTS_WORDS), np.int32)
     outputs = final, np.empty((1, N_BALLS), np.int8), facts
     entry, row, work = kernels(table.has_jaws).simulate_rows, parameters(table, event_limit), workspace()
+    width = at.REAL_TRACE_WIDTH if table.has_jaws else at.TRACE_WIDTH
     rows = TRACE_ROWS if trace else 0
-    events = np.empty((1, rows * TRACE_WIDTH)) if trace else NO_TRACE
+    events = np.empty((1, rows * width)) if trace else NO_TRACE
     entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
     n_events = int(facts[0, F_EVENTS])
     if trace and n_events > rows:
-        events = np.empty((1, n_events * TRACE_WIDTH))
+        events = np.empty((1, n_events * width))
         entry(row, work, states, stroke, *outputs, events, NO_COUNTERS)
     if trace:  # cut where it lies: a copy would cost more than the call
-        events.resize((n_events, TRACE_WIDTH), refcheck=False)
+        events.resize((n_events, width), refcheck=False)
     return Result(table, states, final, facts, events if trace else None, n_events)
 
 

@@ -150,6 +150,11 @@ class Table:
                 raise InvalidTable(field.name, value, f"is {field.default} on this table")
 
     @property
+    def flies(self) -> bool:
+        """Whether balls leave the cloth."""
+        return False
+
+    @property
     def ball_radius(self) -> float:
         """Radius of a ball, m."""
         return constants.BALL_RADIUS
@@ -212,6 +217,10 @@ class Table:
         inside = (side <= half_x - radius + slack) & (end <= half_y - radius + slack)
         beside_side_mouth = (side < half_x - radius) | (end >= 0.5 * self.side_mouth)
         return inside & beside_side_mouth & (side + end < half_x + half_y - self.corner_reach - radius)
+
+    def in_air(self, _x: float, _y: float, _height: float) -> bool:
+        """Whether a flying ball may be at (x, y) m, its centre ``height`` m above where it rests on the cloth."""
+        return False
 
     def in_play(self, x: float, y: float) -> bool:
         """Whether a ball may pass (x, y), m: within cushion and mouth lines, to ``PLACEMENT_TOLERANCE``."""

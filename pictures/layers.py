@@ -49,7 +49,7 @@ def stroke(view: Projection, theme: Theme, result: Result, called: int | None) -
     all_tracks = tracks(result)
     moved = [track for track in all_tracks if track.moves]
     at_first = [ball(track.ball, view.at(track.start), theme, FAINT) for track in moved]
-    at_last = [ball(track.ball, view.at(track.end), theme) for track in all_tracks if track.pocketed is None]
+    at_last = [ball(track.ball, view.at(track.end), theme) for track in all_tracks if track.stays]
     rings = [ring(view.at(track.start), theme) for track in all_tracks if track.ball == called]
     meeting = _ghost_place(result)
     return [

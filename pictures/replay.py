@@ -93,7 +93,7 @@ def _scene(view: Projection, scene: ReplayShot) -> dict[str, Any]:
 
 
 def _track(view: Projection, track: Track) -> dict[str, Any]:
-    """Pieces as [begins, ends, x0, y0, x1, y1, x2, y2], and the hole that the ball drops into."""
+    """Pieces as [begins, ends, x0, y0, x1, y1, x2, y2]; when and where the ball goes: a hole, or where it leaves."""
     pieces = [
         [round(piece.begins, 6), round(piece.ends, 6), *_rounded(view, piece.start, piece.control, piece.end)]
         for piece in track.pieces
@@ -101,6 +101,8 @@ def _track(view: Projection, track: Track) -> dict[str, Any]:
     drops = None
     if track.pocketed is not None:
         drops = [round(track.pocketed, 6), *_rounded(view, nearest_hole(view.table, track.end))]
+    elif track.left is not None:
+        drops = [round(track.left, 6), *_rounded(view, track.end)]
     return {"pieces": pieces, "drops": drops}
 
 

@@ -1,7 +1,7 @@
 """Where each ball goes during a shot, as curves that a picture can draw exactly.
 
-Between two events a ball on the cloth has a constant acceleration, so its path is a parabola: the quadratic Bezier
-curve from start to end whose control point lies half the time along the first velocity.
+Between two events a ball has a constant acceleration in plan, none in the air, so its path is a parabola: the quadratic
+Bezier curve from start to end whose control point lies half the time along the first velocity.
 """
 
 from dataclasses import dataclass
@@ -42,12 +42,13 @@ class Track:
     Attributes:
         ball: its number.
         pieces: of its path, in order, at least one; between them it rests.
-        pocketed: the time at which it drops, s, or None.
+        pocketed: the time at which it drops, s, or None. left: at which it leaves the table otherwise.
     """
 
     ball: int
     pieces: tuple[Piece, ...]
     pocketed: float | None
+    left: float | None = None
 
     @property
     def start(self) -> Point:
@@ -58,6 +59,11 @@ class Track:
     def end(self) -> Point:
         """Where it is last seen, m."""
         return self.pieces[-1].end
+
+    @property
+    def stays(self) -> bool:
+        """Whether it is on the table at the end."""
+        return self.pocketed is None and self.left is None
 
     @property
     def moves(self) -> bool:
@@ -84,7 +90,7 @@ class _Knot:
         return cls(time, state.position, state.velocity, state.motion in MOVING)
 
 
-MOVING = (Motion.SLIDING, Motion.ROLLING)
+MOVING = (Motion.SLIDING, Motion.ROLLING, Motion.FLYING)
 """Motion states in which a ball changes its place."""
 
 
@@ -100,17 +106,20 @@ def tracks(result: Result) -> tuple[Track, ...]:
         for ball in range(N_BALLS)
         if not np.isnan(start.positions[ball, 0])
     }
-    dropped = {}
+    dropped: dict[int, float] = {}
+    left: dict[int, float] = {}
     for event in result.events:
         for state in event.states:
             knots[state.ball].append(_Knot.of(event.time, state))
         if event.kind is EventKind.POCKET_COLLISION:
             dropped[event.ball] = event.time
+        elif event.kind is EventKind.OFF_TABLE:
+            left[event.ball] = event.time
     for ball in knots:
         final = result.final.position(ball)
         if final is not None:  # the end of a shot is an event of no ball
             knots[ball].append(_Knot(result.duration, final, (0.0, 0.0), moves=False))
-    return tuple(Track(ball, _pieces(knots[ball]), dropped.get(ball)) for ball in knots)
+    return tuple(Track(ball, _pieces(knots[ball]), dropped.get(ball), left.get(ball)) for ball in knots)
 
 
 def _point(row: NDArray[np.float64]) -> Point:

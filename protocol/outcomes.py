@@ -95,14 +95,25 @@ class RulingView(Message):
         )
 
 
+def _is_none(value: float | None) -> bool:
+    return value is None
+
+
 class BallStateView(Message):
-    """One ball after an event: m, m/s, rad/s."""
+    """One ball after an event: m, m/s, rad/s.
+
+    Attributes:
+        height: m, of the centre above where it rests on the cloth. velocity_z: m/s, upwards. Both are left out on
+            tables where nothing flies.
+    """
 
     ball: BallNumber
     position: tuple[Number, Number]
     velocity: tuple[Number, Number]
     spin: tuple[Number, Number, Number]
-    motion: Literal["stationary", "spinning", "sliding", "rolling", "pocketed", "absent"]
+    motion: Literal["stationary", "spinning", "sliding", "rolling", "pocketed", "absent", "flying", "driven_off"]
+    height: Annotated[Number | None, Field(exclude_if=_is_none)] = None
+    velocity_z: Annotated[Number | None, Field(exclude_if=_is_none)] = None
 
 
 class EventView(Message):

@@ -3,6 +3,7 @@
 from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, small_kernel, store
 from physics.kernels.path import along
+from physics.kernels.workspace import by_table
 
 
 @small_kernel
@@ -16,6 +17,29 @@ def decayed(spin, rate, dt):
     return 0.0
 
 
+@small_kernel
+def stays_on_cloth(_s, _i, _motion, _dt):
+    """See ``fly_on``."""
+    return False
+
+
+@small_kernel
+def fly(s, i, motion, dt):
+    """See ``fly_on``: straight in plan, a parabola upwards, the spin as it is (eq. 43)."""
+    if motion != at.FLYING:
+        return False
+    vz, hz = load(s.w, at.VZ + i), load(s.w, at.HZ + i)
+    store(s.w, at.X + i, load(s.w, at.X + i) + dt * load(s.w, at.VX + i))
+    store(s.w, at.Y + i, load(s.w, at.Y + i) + dt * load(s.w, at.VY + i))
+    store(s.w, at.Z + i, max(along(load(s.w, at.Z + i), vz, hz, dt), 0.0))
+    store(s.w, at.VZ + i, vz + 2.0 * hz * dt)
+    return True
+
+
+fly_on = by_table(stays_on_cloth, fly)
+"""``fly_on(s, i, motion, dt)``: move a ball that flies by ``dt``; whether it does."""
+
+
 @kernel
 def advance(s, i, time):
     """Move the anchor of ball ``i`` to ``time``: position, velocity and spin there."""
@@ -26,6 +50,8 @@ def advance(s, i, time):
         return
     if motion == at.SPINNING:
         store(s.w, at.WZ + i, decayed(load(s.w, at.WZ + i), load(s.p, at.P_SPIN), dt))
+        return
+    if fly_on(s, i, motion, dt):
         return
     vx, vy, hx, hy = load(s.w, at.VX + i), load(s.w, at.VY + i), load(s.w, at.HX + i), load(s.w, at.HY + i)
     per_radius = load(s.p, at.P_PER_RADIUS)

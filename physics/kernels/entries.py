@@ -34,10 +34,10 @@ def simulate_rows(p, work, states, shots, final, pockets, facts, trace, counters
         tasks.simulate_row(s, n, states, shots, final, pockets, facts, rows, counters)
 
 
-@entry(NONE, READ, WRITTEN, READ, READ, FLOAT, WRITTEN)
-def state_at(p, work, states, trace, time, out):
-    """States of all balls at ``time``, from the states at the start and the trace; (1, 128), from the centre."""
-    tasks.state_at(bare_workspace(p, work), states, trace, time, out)
+@entry(NONE, READ, WRITTEN, READ, READ, READ, WRITTEN)
+def states_at(p, work, states, trace, times, out):
+    """States of all balls at ascending ``times`` (1, n), from the start's and the trace; (n, 128), from the centre."""
+    tasks.states_at(bare_workspace(p, work), states, trace, times, out)
 
 
 @entry(types.UniTuple(INTEGER, 2), READ, WRITTEN, READ, READ)

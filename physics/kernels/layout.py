@@ -3,7 +3,8 @@
 Kernels say ``from physics.kernels import layout as at`` and ``load(s.w, at.VX + i)``: ``w`` is float64 memory, ``k``
 int64 memory, ``p`` the table's parameters (``physics.kernels.workspace``). Per-ball quantities are rows of 16 lanes:
 quantity Q of ball i is ``w[Q + i]``. Coordinates are from the table's centre, so that mirror images and half turns
-have the same bits. A ball's path since its own ``SINCE`` is r = X + V dt + H dt^2: H is half the acceleration.
+have the same bits. A ball's path since its own ``SINCE`` is r = X + V dt + H dt^2: H is half the acceleration. Z counts
+from where a centre rests on the cloth. What is vertical stays 0 on tables that do not fly.
 
 Plain numbers: importing this module loads no compiler.
 """
@@ -17,7 +18,8 @@ MOST_PAIRS = LANES * (LANES - 1) // 2
 (
     X,  # m
     Y,
-    VX,  # m/s, rad/s
+    VZ,  # m/s, rad/s
+    VX,
     VY,
     WX,
     WY,
@@ -27,21 +29,26 @@ MOST_PAIRS = LANES * (LANES - 1) // 2
     SINCE,  # s: time of the anchor
     END,  # s: time of the ball's own next motion transition
     NEXT,  # s: time of the ball's next event
-    VX_CHANGE,  # of a round of the contact rule
+    VZ_CHANGE,  # of a round of the contact rule
+    VX_CHANGE,
     VY_CHANGE,
     WX_CHANGE,
     WY_CHANGE,
     WZ_CHANGE,
+    Z,  # m: height of the centre above where it rests on the cloth
+    HZ,  # m/s^2
+    PRESSED,  # s: a landing before this time is a ball pressed down by a cushion
     CLOSING,
-) = range(0, 18 * LANES, LANES)
+) = range(0, 23 * LANES, LANES)
 SPEEDS = (VX, VY, WX, WY, WZ)
 CHANGE = VX_CHANGE - VX
 """How far the changes of a round of the contact rule lie behind what they change."""
 
 # --- float64, one a touching pair --------------------------------------------------------------------
 # CLOSING, m/s: approach, then the normal change of velocity; 0 if the pair does not act
-NORMAL_X, NORMAL_Y = CLOSING + MOST_PAIRS, CLOSING + 2 * MOST_PAIRS  # unit vector from the lower ball to the higher
-W_SIZE = NORMAL_Y + MOST_PAIRS
+NORMAL_X, NORMAL_Y = CLOSING + MOST_PAIRS, CLOSING + 2 * MOST_PAIRS  # unit vector from the ball of the lower number
+NORMAL_Z = NORMAL_Y + MOST_PAIRS
+W_SIZE = NORMAL_Z + MOST_PAIRS
 
 # --- int64, one row of lanes each --------------------------------------------------------------------
 (
@@ -50,8 +57,9 @@ W_SIZE = NORMAL_Y + MOST_PAIRS
     PARTNER,  # ball, cushion or pocket of the next event
     FROZEN,  # for a ball in FROZEN_BALLS: the cushion
     LINKS,  # scratch of the contact rule: active pairs at each ball
+    PARTINGS,  # how often step 3 of the contact rule has parted a flying ball
     SCALARS,
-) = range(0, 6 * LANES, LANES)
+) = range(0, 7 * LANES, LANES)
 
 # --- int64 scalars, all 0 when a shot starts -----------------------------------------------------------
 (
@@ -64,27 +72,30 @@ W_SIZE = NORMAL_Y + MOST_PAIRS
     CUSHION_SEEN,  # bit sets of balls
     CUSHION_AFTER_SEEN,
     FROZEN_BALLS,  # bit set of the balls that have touched a cushion since the start without leaving it
+    FLYING_BALLS,  # bit sets of the balls in the air, of those out of play since the start, of those to be taken off
+    GONE_BALLS,
+    PERCHED_BALLS,
     N_PAIRS,  # touching pairs of the cluster
     LOOKS,  # counters of work
     PAIRS_LEFT,
     SOLVES,
     CUSHION_LOOKS,
     PAIRS,  # touching pairs of a cluster: first ball * 16 + second ball
-) = range(SCALARS, SCALARS + 15)
+) = range(SCALARS, SCALARS + 18)
 N_COUNTERS = CUSHION_LOOKS - LOOKS + 1
 K_SIZE = PAIRS + MOST_PAIRS
 
 # --- motion states (physics.events.Motion) -----------------------------------------------------------
-STATIONARY, SPINNING, SLIDING, ROLLING, POCKETED, ABSENT = range(6)
+STATIONARY, SPINNING, SLIDING, ROLLING, POCKETED, ABSENT, FLYING, DRIVEN_OFF = range(8)
 
 # --- kinds of a ball's next event; of simultaneous ones the lower comes first --------------------------
-NOTHING, MEET_BALL, MEET_CUSHION, MEET_JAW, MEET_POCKET, TRANSITION, LOOK_AGAIN = range(7)
+NOTHING, MEET_BALL, MEET_CUSHION, MEET_JAW, MEET_POCKET, MEET_TOP, LEAVE, TRANSITION, LOOK_AGAIN = range(9)
 
 # --- kinds in the trace (physics.events.KINDS) ----------------------------------------------------------
 CUE_STRIKE, BALL_COLLISION, RAIL_COLLISION, POCKET_COLLISION = range(4)
 SLIDING_ROLLING, SLIDING_SPINNING, SLIDING_STATIONARY = 4, 5, 6
 ROLLING_SPINNING, ROLLING_STATIONARY, SPINNING_STATIONARY, CONTACT = 7, 8, 9, 10
-JAW_COLLISION = 11
+JAW_COLLISION, LANDING, RAIL_TOP, OFF_TABLE = 11, 12, 13, 14
 
 # --- statuses (physics.status.Status) -------------------------------------------------------------------
 AT_REST, CUE_OBSTRUCTED, TIP_OFF_BALL, OUT_OF_RANGE, NO_CUE_BALL, EVENT_LIMIT = range(6)
@@ -112,11 +123,14 @@ SHOT_WIDTH = 5
 # --- a ball's state: 16 of them are a snapshot, one or two stand in a row of the trace -------------------
 A_X, A_Y, A_VX, A_VY, A_WX, A_WY, A_WZ, A_MOTION = range(8)
 STATE_WIDTH = 8
+A_Z, A_VZ = 8, 9  # of a table with jaws
+REAL_STATE_WIDTH = 10
 
 # --- a row of the trace ----------------------------------------------------------------------------------
 T_TIME, T_KIND, T_BALL, T_OTHER, T_FIRST = range(5)
 T_SECOND = T_FIRST + STATE_WIDTH  # of a ball collision alone
 TRACE_WIDTH = T_SECOND + STATE_WIDTH
+REAL_TRACE_WIDTH = T_FIRST + 2 * REAL_STATE_WIDTH
 
 # --- facts: the fields of physics.facts.FACTS_DTYPE, int32 and then float64 --------------------------------
 INTEGER_FACTS = {
@@ -197,8 +211,18 @@ FACTS_WIDTH = 2 * (F_CUE_Y + 1)  # as int32
     P_END_RATIO,  # cue end mass / ball mass
     P_E_TIP,
     P_MU_TIP,
+    P_FLIGHT,  # 1.0 if balls leave the cloth
+    P_GRAVITY,  # m/s^2
+    P_NOSE_RISE,  # m: how far the nose is above the centre of a ball on the cloth
+    P_E_CLOTH,
+    P_E_STRIKE,
+    P_E_PRESSED,
+    P_E_RAIL,
+    P_MU_RAIL,
+    P_CUSHION_WIDTH,  # m: from the nose line
+    P_RAIL_WIDTH,
     P_CORNER_JAW,  # a mouth: see MOUTH_WIDTH
-) = range(P_SIZE, P_SIZE + 12)
+) = range(P_SIZE, P_SIZE + 22)
 JAW_NOSE_END, JAW_HORN, JAW_START_S, JAW_START_D, JAW_NORMAL_S, JAW_NORMAL_D, JAW_LENGTH = range(7)
 HOLE_U, HOLE_V, HOLE_RADIUS = range(7, 10)
 MOUTH_WIDTH = 10

@@ -16,12 +16,14 @@ from physics.kernels.compiling import (
     store_integer,
 )
 from physics.kernels.detect.prediction import predict, release
+from physics.kernels.flights import cut_flights, end_flight, is_at_rail, is_flying, meet_rail, still_in_play
+from physics.kernels.out_of_play import pocket
 from physics.kernels.recording import record
 from physics.kernels.resolve.boundary import touched_cushion
 from physics.kernels.resolve.cloth import restate, transition
 from physics.kernels.resolve.cluster import UNSETTLED, settle
 from physics.kernels.resolve.touching import bring
-from physics.kernels.start import note_frozen, note_start, place, put_away, restore
+from physics.kernels.start import note_frozen, note_start, place, restore
 from physics.kernels.strike import playable, read_stroke, strike
 from physics.kernels.tolerances import STEPS_PER_EVENT
 
@@ -67,24 +69,14 @@ def detect(s, alive, changed, now):
         predict(s, alive, i, now)
 
 
-@kernel
-def pocket(s, i, time):
-    """Ball ``i`` reaches a mouth: it is recorded where it crosses, and out of play."""
-    bring(s, i, time)
-    number = load_integer(s.k, at.PARTNER + i)
-    store_integer(s.k, at.MOTION + i, at.POCKETED)
-    event = record(s, time, plain(at.POCKET_COLLISION), i, number)
-    store_fact(s.facts, at.F_POCKETED + i, event)
-    store_fact(s.facts, at.F_POCKET + i, number)
-    put_away(s, i, at.POCKETED)
-
-
 @small_kernel
 def end_motion(s, alive, i, time):
     """Ball ``i`` ends its motion state; bit set of the balls still to predict, or UNSETTLED.
 
     Its new acceleration may press it against what it touches: then the contact rule has its say.
     """
+    if is_flying(s, i):
+        return end_flight(s, i, time)
     bring(s, i, time)
     event = transition(s, i)
     record(s, time, event, i, plain(at.NOBODY))
@@ -119,12 +111,15 @@ def run(s, alive, changed):
             pocket(s, i, now)
             alive &= ~(1 << i)
             changed = 0
+        elif is_at_rail(s, kind):
+            changed = meet_rail(s, i, now)
         else:
             partner = load_integer(s.k, at.PARTNER + i) if kind == at.MEET_BALL else at.NOBODY
             changed = settle(s, i, partner, now)
         if changed == UNSETTLED:
             ended = at.OUT_OF_ROUNDS
             break
+        alive = still_in_play(s, alive, now)
         detect(s, alive, changed, now)
     rest = alive
     while rest != 0:  # else the balls would be left at different times
@@ -182,6 +177,8 @@ def play(s, moving, balls, shot):
         ended = at.OUT_OF_ROUNDS
         if changed != UNSETTLED:
             ended, duration = run(s, alive, changed)
+        if ended != at.NOTHING_TO_COME:
+            cut_flights(s, duration)
         store_integer(s.k, at.ENDED, ended)
         status = at.AT_REST if ended == at.NOTHING_TO_COME else at.EVENT_LIMIT
     finish(s, status, duration)

@@ -21,6 +21,49 @@ class Path(NamedTuple):
     hy: float
 
 
+class Rise(NamedTuple):
+    """The vertical part of a path: z + vz t + hz t^2.
+
+    Attributes:
+        z: m. vz: m/s. hz: m/s^2.
+    """
+
+    z: float
+    vz: float
+    hz: float
+
+
+class SpacePath(NamedTuple):
+    """A parabola in space: a ``Path`` and its ``Rise``."""
+
+    x: float
+    y: float
+    z: float
+    vx: float
+    vy: float
+    vz: float
+    hx: float
+    hy: float
+    hz: float
+
+
+class RingPath(NamedTuple):
+    """The path of a flying ball by a horizontal ring, seen from its middle: straight in plan.
+
+    Attributes:
+        x, y, z: m. vx, vy, vz: m/s. hz: m/s^2. ring: m, its radius.
+    """
+
+    x: float
+    y: float
+    z: float
+    vx: float
+    vy: float
+    vz: float
+    hz: float
+    ring: float
+
+
 @small_kernel
 def along(start, speed, half, dt):
     """Coordinate after ``dt``: start + speed dt + half dt^2."""
@@ -44,6 +87,15 @@ def path_of(s, i, now):
 
 
 @small_kernel
+def rise_of(s, i, now):
+    """The vertical part of the path of ball ``i`` from ``now`` on: 0 on the cloth."""
+    dt = now - load(s.w, at.SINCE + i)
+    vz, hz = load(s.w, at.VZ + i), load(s.w, at.HZ + i)
+    gain = dt * hz
+    return Rise(load(s.w, at.Z + i) + dt * (vz + gain), vz + (gain + gain), hz)
+
+
+@small_kernel
 def seen_from(here, there):
     """The path ``there`` seen from a ball on the path ``here``."""
     return Path(
@@ -53,4 +105,36 @@ def seen_from(here, there):
         there.vy - here.vy,
         there.hx - here.hx,
         there.hy - here.hy,
+    )
+
+
+@small_kernel
+def in_space(path, here, there):
+    """A relative ``path`` with its relative rise: ``there`` seen from ``here``."""
+    return SpacePath(
+        path.x,
+        path.y,
+        there.z - here.z,
+        path.vx,
+        path.vy,
+        there.vz - here.vz,
+        path.hx,
+        path.hy,
+        there.hz - here.hz,
+    )
+
+
+@small_kernel
+def later(path, rise, time):
+    """A ``Path`` and its ``Rise`` from ``time`` on."""
+    return (
+        Path(
+            along(path.x, path.vx, path.hx, time),
+            along(path.y, path.vy, path.hy, time),
+            path.vx + 2.0 * path.hx * time,
+            path.vy + 2.0 * path.hy * time,
+            path.hx,
+            path.hy,
+        ),
+        Rise(along(rise.z, rise.vz, rise.hz, time), rise.vz + 2.0 * rise.hz * time, rise.hz),
     )

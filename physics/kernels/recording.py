@@ -12,6 +12,39 @@ from physics.kernels.compiling import (
     store_integer,
 )
 from physics.kernels.path import along
+from physics.kernels.workspace import by_table
+
+
+@small_kernel
+def flat_width(_s):
+    """See ``state_width``."""
+    return at.STATE_WIDTH
+
+
+@small_kernel
+def real_width(_s):
+    """See ``state_width``."""
+    return at.REAL_STATE_WIDTH
+
+
+state_width = by_table(flat_width, real_width)
+"""``state_width(s)``: numbers of a ball's state."""
+
+
+@small_kernel
+def no_height(_s, _i, _memory, _place):
+    """See ``write_height``."""
+
+
+@small_kernel
+def height_too(s, i, memory, place):
+    """See ``write_height``."""
+    store(memory, place + at.A_Z, load(s.w, at.Z + i))
+    store(memory, place + at.A_VZ, load(s.w, at.VZ + i))
+
+
+write_height = by_table(no_height, height_too)
+"""``write_height(s, i, memory, place)``: the vertical part of a state, where states have one."""
 
 
 @small_kernel
@@ -25,6 +58,7 @@ def write_state(s, i, memory, place):
     store(memory, place + at.A_WY, load(s.w, at.WY + i))
     store(memory, place + at.A_WZ, load(s.w, at.WZ + i))
     store(memory, place + at.A_MOTION, float(load_integer(s.k, at.MOTION + i)))
+    write_height(s, i, memory, place)
 
 
 @kernel
@@ -35,16 +69,18 @@ def record(s, time, kind, ball, other):
     if ball == at.CUE_BALL:
         store_integer(s.k, at.STRETCH, event)
     if event < load_integer(s.k, at.TRACE_ROWS):
-        start = event * at.TRACE_WIDTH
+        width = state_width(s)
+        second = at.T_FIRST + width
+        start = event * (second + width)
         store(s.trace, start + at.T_TIME, time)
         store(s.trace, start + at.T_KIND, float(kind))
         store(s.trace, start + at.T_BALL, float(ball))
         store(s.trace, start + at.T_OTHER, float(other))
         write_state(s, ball, s.trace, start + at.T_FIRST)
         if kind == at.BALL_COLLISION:
-            write_state(s, other, s.trace, start + at.T_SECOND)
+            write_state(s, other, s.trace, start + second)
         else:
-            for n in range(at.T_SECOND, at.TRACE_WIDTH):
+            for n in range(second, second + width):
                 store(s.trace, start + n, 0.0)
     return event
 

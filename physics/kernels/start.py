@@ -16,18 +16,76 @@ from physics.kernels.compiling import (
     store_integer,
 )
 from physics.kernels.motion import on_table
+from physics.kernels.recording import state_width
 from physics.kernels.resolve.boundary import touched_cushion
 from physics.kernels.resolve.cloth import begin
 from physics.kernels.resolve.touching import neighbours
 from physics.kernels.tolerances import TOUCH
+from physics.kernels.workspace import by_table
 
 FAR_AWAY = 1000.0
 """m. Balls off the table wait this far out, each at its own multiple, where nothing meets them."""
 
 
+@small_kernel
+def stay_down(_s, _i):
+    """See ``take_away``."""
+
+
+@small_kernel
+def take_from_air(s, i):
+    """See ``take_away``."""
+    for quantity in (at.Z, at.VZ, at.HZ):
+        store(s.w, quantity + i, 0.0)
+    store_integer(s.k, at.FLYING_BALLS, load_integer(s.k, at.FLYING_BALLS) & ~(1 << i))
+    store_integer(s.k, at.GONE_BALLS, load_integer(s.k, at.GONE_BALLS) | 1 << i)
+
+
+take_away = by_table(stay_down, take_from_air)
+"""``take_away(s, i)``: nothing about a ball out of play is vertical; note that it is."""
+
+
+@small_kernel
+def nothing_to_clear(_s):
+    """See ``clear_heights``."""
+
+
+@small_kernel
+def clear_air(s):
+    """See ``clear_heights``."""
+    for i in range(at.LANES):
+        store(s.w, at.Z + i, 0.0)
+        store(s.w, at.VZ + i, 0.0)
+        store(s.w, at.HZ + i, 0.0)
+        store(s.w, at.PRESSED + i, -math.inf)
+        store_integer(s.k, at.PARTINGS + i, 0)
+    store_integer(s.k, at.FLYING_BALLS, 0)
+
+
+clear_heights = by_table(nothing_to_clear, clear_air)
+"""``clear_heights(s)``: nothing flies."""
+
+
+@small_kernel
+def no_heights(_s, _i, _memory, _place):
+    """See ``read_height``."""
+
+
+@small_kernel
+def take_height(s, i, memory, place):
+    """See ``read_height``."""
+    store(s.w, at.Z + i, load(memory, place + at.A_Z))
+    store(s.w, at.VZ + i, load(memory, place + at.A_VZ))
+
+
+read_height = by_table(no_heights, take_height)
+"""``read_height(s, i, memory, place)``: take the vertical part of a state, where states have one."""
+
+
 @kernel
 def put_away(s, i, motion):
     """Take ball ``i`` out of play."""
+    take_away(s, i)
     store_integer(s.k, at.MOTION + i, motion)
     store_integer(s.k, at.KIND + i, at.NOTHING)
     for quantity in (at.VX, at.VY, at.WX, at.WY, at.WZ, at.HX, at.HY, at.SINCE, at.Y):
@@ -40,6 +98,7 @@ def put_away(s, i, motion):
 @small_kernel
 def clear(s):
     """Nothing moves and nothing is to come."""
+    clear_heights(s)
     for n in range(at.VX, at.END):
         store(s.w, n, 0.0)
     for i in range(at.LANES):
@@ -75,6 +134,7 @@ def read_speeds(s, i, memory, place):
     store(s.w, at.WX + i, load(memory, place + at.A_WX))
     store(s.w, at.WY + i, load(memory, place + at.A_WY))
     store(s.w, at.WZ + i, load(memory, place + at.A_WZ))
+    read_height(s, i, memory, place)
 
 
 @kernel
@@ -83,7 +143,7 @@ def restore(s, states):
     clear(s)
     alive = 0
     for i in range(at.LANES):
-        place = i * at.STATE_WIDTH
+        place = i * state_width(s)
         motion = int(load(states, place + at.A_MOTION))
         store_integer(s.k, at.MOTION + i, motion)
         store(s.w, at.X + i, FAR_AWAY * float(i + 1))

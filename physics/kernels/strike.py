@@ -10,9 +10,10 @@ import math
 from typing import NamedTuple
 
 from physics.kernels import layout as at
-from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store_fact
+from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store, store_fact
 from physics.kernels.detect.mouths import beside_long_nose, beside_short_nose
 from physics.kernels.motion import on_table
+from physics.kernels.resolve.flight import struck_off
 from physics.kernels.squirt import struck
 from physics.kernels.trigonometry import sine_cosine
 from physics.kernels.workspace import by_table
@@ -101,7 +102,10 @@ def strike_rigidly(s, stroke):
 
 @small_kernel
 def strike_with_end(s, stroke):
-    """The same by a cue whose end has mass: it squirts, and beyond the tip's friction it slips (squirt.py)."""
+    """The same by a cue whose end has mass: it squirts, and beyond the tip's friction it slips (squirt.py).
+
+    Where balls leave the cloth it answers the blow down, and VZ of the cue ball is set.
+    """
     radius = load(s.p, at.P_RADIUS)
     depth = math.sqrt(radius * radius - stroke.a * stroke.a - stroke.b * stroke.b)
     velocity, spin, slips = struck(
@@ -117,6 +121,9 @@ def strike_with_end(s, stroke):
         stroke.v,
     )
     store_fact(s.facts, at.F_MISCUE, int(slips))
+    if load(s.p, at.P_FLIGHT) != 0.0:
+        velocity, spin = struck_off(s, velocity, spin)
+        store(s.w, at.VZ + at.CUE_BALL, velocity[2])
     return velocity[0], velocity[1], spin[0], spin[1], spin[2]
 
 

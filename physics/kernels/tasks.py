@@ -11,7 +11,7 @@ from physics.kernels.detect.line import may_lie_inside
 from physics.kernels.detect.mouths import may_stand
 from physics.kernels.loop import play
 from physics.kernels.motion import on_table
-from physics.kernels.recording import write_state
+from physics.kernels.recording import state_width, write_state
 from physics.kernels.resolve.cloth import begin
 from physics.kernels.start import place, put_away, read_speeds, reset, restore
 from physics.kernels.strike import MILLIMETRE, lowest_elevation, obstacle, playable, read_stroke
@@ -67,7 +67,7 @@ def simulate_row(s, n, states, shots, final, pockets, facts, rows, counters):
     given = row(states, n if states.shape[0] > 1 else 0)
     reset(s, rows)
     play(s, moving, given, row(shots, n if moving == 0 else 0))
-    collect(s, given, at.STATE_WIDTH if moving else 2, row(final, n))
+    collect(s, given, state_width(s) if moving else 2, row(final, n))
     for i in range(at.LANES):
         absent = load_integer(s.k, at.MOTION + i) == at.ABSENT
         pockets[n, i] = at.ABSENT_FROM_START if absent else facts[n, at.F_POCKET + i]
@@ -91,24 +91,29 @@ def take_state(s, i, memory, start, time):
 
 
 @kernel
-def state_at(s, states, trace, time, out):
-    """States of all balls at ``time``, from the states at the start and the trace; (1, 128), from the centre."""
-    restore(s, row(states, 0))
+def states_at(s, states, trace, times, out):
+    """States of all balls at ascending ``times`` (1, n), from the states at the start and the trace; a row of ``out``
+    each, from the centre."""
     last = np.full(at.LANES, -1)
-    for n in range(trace.shape[1] // at.TRACE_WIDTH):
-        start = n * at.TRACE_WIDTH
-        if trace[0, start + at.T_TIME] > time:
-            break
-        last[int(trace[0, start + at.T_BALL])] = start + at.T_FIRST
-        if int(trace[0, start + at.T_KIND]) == at.BALL_COLLISION:
-            last[int(trace[0, start + at.T_OTHER])] = start + at.T_SECOND
-    for i in range(at.LANES):
-        if last[i] >= 0:
-            since = trace[0, last[i] // at.TRACE_WIDTH * at.TRACE_WIDTH + at.T_TIME]
-            take_state(s, i, row(trace, 0), last[i], since)
-        if on_table(load_integer(s.k, at.MOTION + i)):
-            advance(s, i, time)
-        write_state(s, i, row(out, 0), i * at.STATE_WIDTH)
+    width = state_width(s)
+    stride = at.T_FIRST + 2 * width
+    event = 0
+    for n in range(times.shape[1]):
+        time = times[0, n]
+        while event < trace.shape[1] // stride and trace[0, event * stride + at.T_TIME] <= time:
+            start = event * stride
+            last[int(trace[0, start + at.T_BALL])] = start + at.T_FIRST
+            if int(trace[0, start + at.T_KIND]) == at.BALL_COLLISION:
+                last[int(trace[0, start + at.T_OTHER])] = start + at.T_FIRST + width
+            event += 1
+        restore(s, row(states, 0))
+        for i in range(at.LANES):
+            if last[i] >= 0:
+                since = trace[0, last[i] // stride * stride + at.T_TIME]
+                take_state(s, i, row(trace, 0), last[i], since)
+            if on_table(load_integer(s.k, at.MOTION + i)):
+                advance(s, i, time)
+            write_state(s, i, row(out, n), i * width)
 
 
 @kernel

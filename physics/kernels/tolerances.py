@@ -44,6 +44,22 @@ STILL = 1e-11
 it such a ball, pushed anew by its neighbour whenever it began to roll, made a million events in 60 ms; and a touching
 neighbour is looked at again before it is 1e-12 m deeper."""
 
+LIFT = 0.05
+"""m/s. A rebound from cloth or rail top that is slower is none: the ball stays down, and the impact is plastic. That is
+a hop of 0.13 mm lasting 10 ms, thinner than the cloth. Where a ball goes does not depend on it: the friction of the
+hops left out is that of sliding for as long (docs/physics.md, eq. 46)."""
+
+PRESS_TIME = 5e-3
+"""s. A ball that a nose has pressed down does not bounce if it lands so soon: the nose still holds it (choice)."""
+
+RAIL_CAP = 0.0406
+"""m. A ball that leaves a hole towards the rail with its lowest point below this height is caught by the pocket's
+liner: cap of a rail with a K-66 cushion (choice)."""
+
+PERCHED_AFTER = 2000
+"""Partings by step 3 of the contact rule after which a ball in the air is perched: a wedge of balls and cushion holds
+it, and it would be parted a thousand times a second for ever. A ball that comes down takes a few hundred."""
+
 STEPS_PER_EVENT = 4
 """Steps of the event loop (events, and looks again) for each event that the limit allows, after which a shot ends with
 ``Status.EVENT_LIMIT``."""

@@ -40,9 +40,15 @@ def must_strike_a_ball(stroke: StrokeFacts) -> Finding:
 
 
 def balls_driven(stroke: StrokeFacts) -> tuple[int, ...]:
-    """R9: the different object balls driven to a cushion; a pocketed ball counts, the cue ball never."""
+    """R9: the different object balls driven to a cushion; one pocketed or off the table counts, the cue ball never."""
+    return tuple(ball for ball in range(1, 16) if driven_by(stroke, ball) != NEVER)
+
+
+def driven_by(stroke: StrokeFacts, ball: int) -> int:
+    """R9: the event by which a ball counts as driven to a cushion, or NEVER (WPA 8.4)."""
     facts = stroke.facts
-    return tuple(ball for ball in range(1, 16) if facts.cushion[ball] != NEVER or facts.pocketed[ball] != NEVER)
+    events = (facts.cushion[ball], facts.pocketed[ball], facts.off_table[ball])
+    return min((event for event in events if event != NEVER), default=NEVER)
 
 
 def legal_break(stroke: StrokeFacts) -> bool:
@@ -55,7 +61,7 @@ def break_evidence(stroke: StrokeFacts) -> Evidence:
     facts = stroke.facts
     if stroke.pocketed:
         return Evidence(RuleId.R9, tuple(facts.pocketed[ball] for ball in stroke.pocketed))
-    events = tuple(sorted(facts.cushion[ball] for ball in balls_driven(stroke)))
+    events = tuple(sorted(driven_by(stroke, ball) for ball in balls_driven(stroke)))
     return Evidence(RuleId.R9, events, None if legal_break(stroke) else stroke.searched())
 
 

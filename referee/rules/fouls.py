@@ -45,13 +45,15 @@ def no_ball_struck(stroke: StrokeFacts) -> Finding:
 
 
 def no_cushion_after_contact(stroke: StrokeFacts) -> Finding:
-    """R35: no ball at all is pocketed, and after first contact no ball is driven to a cushion."""
+    """R35: no ball at all is pocketed, and after first contact no ball is driven to a cushion or off the table."""
     facts = stroke.facts
     if not stroke.struck or stroke.pocketed or facts.pocketed[CUE_BALL] != NEVER:
         return ()
     if max(facts.cushion_after_contact) != NEVER:
         return ()
     contact = min(facts.first_contact[ball] for ball in stroke.struck)
+    if max(facts.off_table) > contact:
+        return ()
     return (Evidence(RuleId.R35, searched=stroke.searched(contact)),)
 
 

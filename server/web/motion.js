@@ -1,5 +1,5 @@
 /**
- * One ball between two events: the closed forms (5) to (9) of docs/physics.md.
+ * One ball between two events: the closed forms (5) to (9) and (43) of docs/physics.md.
  *
  * Metres, seconds, radians per second; x and y along the cloth, z up.
  */
@@ -12,7 +12,9 @@ export const GRAVITY = 9.81;
  * @property {[number, number]} position
  * @property {[number, number]} velocity
  * @property {[number, number, number]} spin
- * @property {string} motion stationary, spinning, sliding, rolling, pocketed or absent
+ * @property {string} motion stationary, spinning, sliding, rolling or flying; pocketed, absent or driven_off
+ * @property {number} [height] of the centre above where it rests on the cloth; none on tables where nothing flies
+ * @property {number} [velocity_z] upwards
  */
 
 /**
@@ -36,7 +38,18 @@ export function clothOf(table) {
 
 /** @param {BallState} state @returns {boolean} whether it is on the table */
 export function isOnTable(state) {
-  return state.motion !== "pocketed" && state.motion !== "absent";
+  return state.motion !== "pocketed" && state.motion !== "absent" && state.motion !== "driven_off";
+}
+
+/** In the air: straight in plan, a parabola upwards, the spin as it is. @param {BallState} state @param {number} dt @returns {BallState} */
+function fly(state, dt) {
+  const { position: [x, y], velocity: [vx, vy], height = 0, velocity_z = 0 } = state;
+  return {
+    ...state,
+    position: [x + dt * vx, y + dt * vy],
+    height: Math.max(height + dt * (velocity_z - dt * (GRAVITY / 2)), 0),
+    velocity_z: velocity_z - GRAVITY * dt,
+  };
 }
 
 /**
@@ -71,6 +84,7 @@ function decayed(spin, loss) {
  */
 export function advance(cloth, state, dt) {
   if (dt === 0 || state.motion === "stationary" || !isOnTable(state)) return state;
+  if (state.motion === "flying") return fly(state, dt);
   const [wx, wy, wz] = state.spin;
   if (state.motion === "spinning") return { ...state, spin: [wx, wy, decayed(wz, cloth.spin * dt)] };
   const [hx, hy] = halfAcceleration(cloth, state);

@@ -5,6 +5,8 @@
  * stretch, so that the same time shows the same ball, whichever way it was reached.
  */
 
+import { isOnTable } from "./motion.js";
+
 /** @typedef {[number, number, number, number]} Quaternion w, x, y, z */
 
 /** Summation step, s: at the fastest spin of a shot a third of a turn. */
@@ -40,7 +42,7 @@ export class Orientations {
   within(ball, place, time) {
     const stretch = (this.trace.stretches.get(ball) || [])[place];
     const sums = this.sumsOf(ball, place);
-    if (stretch.state.motion === "stationary" || stretch.state.motion === "pocketed") return sums[0];
+    if (stretch.state.motion === "stationary" || !isOnTable(stretch.state)) return sums[0];
     const step = Math.floor((time - stretch.time) / STEP);
     while (sums.length <= step) {
       const known = sums.length - 1;

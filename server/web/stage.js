@@ -194,7 +194,8 @@ export class Stage {
       const { stretch } = trace.stretch(ball, time);
       const turned = this.orientations?.at(ball, time);
       if (isOnTable(stretch.state)) {
-        scene.balls.set(ball, { position: trace.ball(ball, time).position, turned });
+        const { position, height } = trace.ball(ball, time);
+        scene.balls.set(ball, { position, height, turned });
       } else if (time - stretch.time < SINK) {
         scene.balls.set(ball, { position: stretch.state.position, turned, alpha: 1 - (time - stretch.time) / SINK });
       }

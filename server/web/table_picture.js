@@ -22,7 +22,8 @@ import { askShape, shapeOf } from "./tables.js";
  */
 /**
  * @typedef {object} Scene
- * @property {Map<number, {position: [number, number], turned?: Quaternion, alpha?: number}>} balls
+ * @property {Map<number, {position: [number, number], height?: number, turned?: Quaternion, alpha?: number}>} balls height: m,
+ *   over where it rests on the cloth
  * @property {Line[]} [lines] under the balls
  * @property {Line[]} [over] over them
  * @property {Cue | null} [cue]
@@ -35,6 +36,11 @@ import { askShape, shapeOf } from "./tables.js";
 const CALL = "#ffd84d";
 /** Least radius of a ball in a small picture, CSS pixels: below it colours are not told apart. */
 const LEAST_DISC = 3.2;
+/** m over the cloth, the eye: what is nearer to it is seen larger. */
+const EYE = 2;
+/** How far a shadow falls aside for each metre of height, by the light of ball_picture.js. */
+const SHADOW_RIGHT = 0.42;
+const SHADOW_DOWN = 0.5;
 
 export class TablePicture {
   /**
@@ -128,22 +134,29 @@ export class TablePicture {
     context.restore();
   }
 
-  drawBall(ball, { position, turned = UPRIGHT, alpha = 1 }) {
+  drawBall(ball, { position, height = 0, turned = UPRIGHT, alpha = 1 }) {
     const { context, projection, density } = this;
     const [px, py] = projection.place(position[0], position[1]);
-    const radius = BALL_RADIUS * projection.scale;
+    const radius = (BALL_RADIUS * projection.scale * EYE) / (EYE - Math.min(height, EYE / 2));
     context.globalAlpha = alpha;
     if (this.plain) {
       this.drawDisc(ball, px, py, Math.max(LEAST_DISC, radius));
     } else {
-      context.fillStyle = "rgb(0 0 0 / 16%)";
-      disc(context, px + radius * 0.3, py + radius * 0.36, radius * 1.08);
-      disc(context, px + radius * 0.16, py + radius * 0.2, radius);
+      this.drawShadow(px + SHADOW_RIGHT * height * projection.scale, py + SHADOW_DOWN * height * projection.scale);
       const picture = this.pictures.picture(ball, turned, radius * density, projection.axes);
       const size = picture.width / density;
       context.drawImage(picture, px - size / 2, py - size / 2, size, size);
     }
     context.globalAlpha = 1;
+  }
+
+  /** What a ball at a place of the picture shades. @param {number} px @param {number} py */
+  drawShadow(px, py) {
+    const { context, projection } = this;
+    const radius = BALL_RADIUS * projection.scale;
+    context.fillStyle = "rgb(0 0 0 / 16%)";
+    disc(context, px + radius * 0.3, py + radius * 0.36, radius * 1.08);
+    disc(context, px + radius * 0.16, py + radius * 0.2, radius);
   }
 
   /** A small ball: a disc of its colour, a stripe as a ring of white. */

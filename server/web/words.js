@@ -47,6 +47,12 @@ export function describeEvent({ kind, ball, other }) {
       return `${name} at the ${CUSHIONS[other]} cushion`;
     case "jaw_collision":
       return `${name} at a jaw of the ${POCKETS[other >> 1]} pocket`;
+    case "landing":
+      return `${name} lands on the cloth`;
+    case "rail_top":
+      return `${name} on the top of the ${CUSHIONS[other]} rail`;
+    case "off_table":
+      return `${name} leaves the table`;
     case "pocket_collision":
       return `${name} falls in the ${POCKETS[other]} pocket`;
     default:

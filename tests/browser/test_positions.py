@@ -1,4 +1,4 @@
-"""Where the page draws the balls: the closed forms (5) to (9) of docs/physics.md, against `result.at(t)`."""
+"""Where the page draws the balls: the closed forms (5) to (9), (43) of docs/physics.md, against `result.at(t)`."""
 
 import json
 import math
@@ -68,13 +68,19 @@ def compare(page: Page, game: PlayedGame, seed: int) -> tuple[int, float]:
             truth = stroke.result.at(time)
             for ball, shown in balls.items():
                 x, y = truth.positions[int(ball)]
-                assert math.isnan(x) == (shown["motion"] in ("pocketed", "absent")), (seed, line["entry"], time, ball)
+                assert math.isnan(x) == (shown["motion"] in ("pocketed", "absent", "driven_off")), (
+                    seed,
+                    line["entry"],
+                    time,
+                    ball,
+                )
                 if not math.isnan(x):
                     compared += 1
                     worst = max(worst, math.dist((x, y), shown["position"]))
                     spin, velocity = truth.spins[int(ball)], truth.velocities[int(ball)]
                     assert math.dist(spin, shown["spin"]) < 1e-6
                     assert math.dist(velocity, shown["velocity"]) < TOLERANCE
+                    worst = max(worst, abs(truth.heights[int(ball)] - shown.get("height", 0.0)))
     return compared, worst
 
 
@@ -115,6 +121,70 @@ def test_positions_of_games_with_jaws_are_those_of_the_physics(page, server, kin
     assert jaws > 20
     assert fallen > 5
     assert worst < TOLERANCE
+
+
+JUMPS = {
+    "over a ball": ({0: (0.635, 0.6), 1: (0.635, 0.9), 2: (0.635, 1.9)}, (3.0, 90.0, 45.0, 0.0, 20.0)),
+    "into two balls": ({0: (0.4, 0.5), 1: (0.6, 1.3), 2: (0.66, 1.3)}, (4.0, 75.0, 35.0, 4.0, 8.0)),
+    "over the rail": ({0: (0.3, 1.0), 3: (0.9, 1.2)}, (6.0, 180.0, 40.0, 0.0, 0.0)),
+    "masse": ({0: (0.6, 0.8), 4: (0.6, 1.4)}, (3.5, 90.0, 75.0, 12.0, 4.0)),
+}
+
+
+@pytest.mark.parametrize("name", JUMPS)
+def test_a_ball_in_the_air_is_drawn_where_it_is_and_as_high(page, server, name):
+    """Issue 20: place, height and upward speed in closed form, between and at the events of shots that fly."""
+    page.goto(server.url)
+    positions, shot = JUMPS[name]
+    table = physics.Table.nine_foot().replace(cue_test=False)
+    state = physics.TableState.from_positions(positions)
+    result = physics.simulate(table, state, physics.Shot(*shot))
+    entry = {"before": positions, "events": result.events.to_dicts(), "duration": result.duration}
+    times = [n * result.duration / 400 for n in range(400)] + [event.time for event in result.events]
+    highest = 0.0
+    for time, balls in zip(times, page.evaluate(AT, [table.to_dict(), entry, times]), strict=True):
+        truth = result.at(time)
+        assert balls.keys() == {str(ball) for ball in positions}
+        for ball, shown in balls.items():
+            number = int(ball)
+            there = shown["motion"] not in ("pocketed", "driven_off")
+            assert there != math.isnan(truth.positions[number][0]), (time, ball)
+            if there:
+                height, rising = shown.get("height", 0.0), shown.get("velocity_z", 0.0)
+                assert math.dist(truth.positions[number], shown["position"]) < TOLERANCE
+                assert abs(truth.heights[number] - height) < TOLERANCE
+                assert abs(truth.vertical_velocities[number] - rising) < TOLERANCE
+                assert math.dist(truth.spins[number], shown["spin"]) < 1e-6
+                highest = max(highest, height)
+    assert highest > 5e-4, "even a masse hops"
+
+
+SHADE = """async ([table, height]) => {
+  const { TablePicture } = await import("/web/table_picture.js");
+  const canvas = document.createElement("canvas");
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  const picture = new TablePicture(canvas, table);
+  picture.fit(900, 1700);
+  const pixels = () => context.getImageData(0, 0, canvas.width, canvas.height).data;
+  picture.draw({ balls: new Map() });
+  const empty = pixels();
+  picture.draw({ balls: new Map([[0, { position: [0.6, 1.2], height }]]) });
+  const drawn = pixels();
+  let [ivory, darker] = [0, 0];
+  for (let at = 0; at < drawn.length; at += 4) {
+    if (drawn[at] > empty[at] + 60) ivory += 1;
+    else if (drawn[at] + 4 < empty[at] || drawn[at + 1] + 4 < empty[at + 1]) darker += 1;
+  }
+  return [ivory / picture.density ** 2, darker / picture.density ** 2];
+}"""
+
+
+def test_a_ball_in_the_air_looks_larger_and_its_shadow_parts_from_it(page, server):
+    page.goto(server.url)
+    table = physics.Table.nine_foot().to_dict()
+    (low, close), (high, far) = (page.evaluate(SHADE, [table, height]) for height in (0.0, 0.2))
+    assert 1.15 < high / low < 1.35, "seen from 2 m: (2 / 1.8)^2"
+    assert far > 2.0 * close, "all of the shadow is seen"
 
 
 @pytest.mark.long

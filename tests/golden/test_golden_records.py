@@ -1,7 +1,7 @@
 """The records of whole games, line for line, as commit 687740a wrote them, before views and rulings became lazy.
 
 That of the nine-foot table is younger: since then a cue ball in hand may be placed as near to a nose as it comes there,
-and strokes of tables with jaws tell of a miscue.
+strokes of tables with jaws tell of a miscue, and balls leave the cloth.
 
 Each line is pinned by the SHA-256 of what the reference implementation of RFC 8785 makes of its object, the chain and
 what names the engine left out: ``python tests/golden/test_golden_records.py`` writes the file anew.

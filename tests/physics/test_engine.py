@@ -14,7 +14,10 @@ from physics.events import KINDS, EventKind, Motion
 from physics.kernels import layout
 from physics.parameters import parameters
 
-ROWS = "X Y VX VY WX WY WZ HX HY SINCE END NEXT VX_CHANGE VY_CHANGE WX_CHANGE WY_CHANGE WZ_CHANGE"
+ROWS = (
+    "X Y VZ VX VY WX WY WZ HX HY SINCE END NEXT "
+    "VZ_CHANGE VX_CHANGE VY_CHANGE WX_CHANGE WY_CHANGE WZ_CHANGE Z HZ PRESSED"
+)
 SPEEDS = ("VX", "VY", "WX", "WY", "WZ")
 POCKETS = ("POCKET_SW", "POCKET_W", "POCKET_NW", "POCKET_NE", "POCKET_E", "POCKET_SE")
 
@@ -48,13 +51,14 @@ def test_sizes_are_those_of_the_layout():
 def test_no_two_quantities_share_a_place():
     """Rows of 16 lanes and lists of 120 pairs follow one another; a state's columns and a trace row's too."""
     rows = ROWS.split()
-    lists = ("CLOSING", "NORMAL_X", "NORMAL_Y")
+    lists = ("CLOSING", "NORMAL_X", "NORMAL_Y", "NORMAL_Z")
     used = [getattr(layout, name) + lane for name in rows for lane in range(layout.LANES)]
     used += [getattr(layout, name) + pair for name in lists for pair in range(layout.MOST_PAIRS)]
     assert sorted(used) == list(range(layout.W_SIZE))
-    assert all(getattr(layout, f"{name}_CHANGE") - getattr(layout, name) == layout.CHANGE for name in SPEEDS)
+    assert all(getattr(layout, f"{name}_CHANGE") - getattr(layout, name) == layout.CHANGE for name in ("VZ", *SPEEDS))
     assert [getattr(layout, name) for name in SPEEDS] == list(layout.SPEEDS)
     assert layout.TRACE_WIDTH == layout.T_FIRST + 2 * layout.STATE_WIDTH
+    assert layout.REAL_TRACE_WIDTH == layout.T_FIRST + 2 * layout.REAL_STATE_WIDTH
 
 
 def test_facts_lie_where_kernels_write_them():
@@ -91,7 +95,9 @@ def test_numbers_of_states_kinds_and_statuses_are_those_of_the_layout():
 
 def test_recorded_numbers_stay():
     """Records and answers of version 0.1.0 hold these: a new one is appended."""
-    assert [motion.name for motion in Motion] == ["STATIONARY", "SPINNING", "SLIDING", "ROLLING", "POCKETED", "ABSENT"]
+    assert [motion.name for motion in Motion] == (
+        ["STATIONARY", "SPINNING", "SLIDING", "ROLLING", "POCKETED", "ABSENT", "FLYING", "DRIVEN_OFF"]
+    )
     assert [each.name for each in status.Status] == (
         ["AT_REST", "CUE_OBSTRUCTED", "TIP_OFF_BALL", "OUT_OF_RANGE", "NO_CUE_BALL", "EVENT_LIMIT"]
     )
@@ -143,3 +149,27 @@ def test_compiling_is_announced_for_what_is_not_kept_yet(tmp_path, capsys):
     assert "compiling the physics of tables with jaws" in capsys.readouterr().err
     engine.say_if_compiled_now(None, "entries", "the physics")
     assert "compiling the physics for" in capsys.readouterr().err
+
+
+CALLED_APART = """
+import sys
+import llvmlite.binding as llvm
+from physics.engine import kernels
+from physics.kernels.apart import _APART
+kernels()
+assert not any(llvm.address_of_symbol(name) for name in _APART), "a table with straight mouths loads none of them"
+kernels(jaws=True)
+print(len(_APART), sum(llvm.address_of_symbol(name) != 0 for name in _APART))
+"""
+
+
+def test_kernels_apart_are_bound_by_name_and_the_old_tables_have_none():
+    done = subprocess.run(
+        [sys.executable, "-c", CALLED_APART],
+        env=os.environ | {"NUMBA_DISABLE_JIT": "0"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    known, bound = map(int, done.stdout.split())
+    assert known == bound > 10

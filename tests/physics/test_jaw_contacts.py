@@ -27,7 +27,7 @@ falling_from_touch = from_python(jaws.falling_from_touch)
 meets_facing = from_python(jaws.meets_facing)
 meets_horn = from_python(jaws.meets_horn)
 
-NINE = physics.RealTable.of_size("nine_foot")
+NINE = physics.RealTable.of_size("nine_foot").replace(flight=False)
 RHO = NINE.contact_distance
 SHAPES = {"corner": NINE.corner_shape, "side": NINE.side_shape}
 

@@ -12,9 +12,12 @@ from physics import Result, Shot, Table, rack, resume, simulate
 BREAK = Shot(9.0, 268.5, 4.0, 1.0, 3.0)
 
 
-@pytest.fixture(params=["olympiad", "nine_foot"])
+@pytest.fixture(params=["olympiad", "nine_foot", "nine_foot that flies"])
 def result(request):
-    table = Table.named(request.param).replace(mu_slide=0.21)
+    name, *flies = request.param.split(" that ")
+    table = Table.named(name).replace(mu_slide=0.21)
+    if flies:
+        table = table.replace(flight=True)
     return simulate(table, rack(table, seed=2), BREAK)
 
 
@@ -94,6 +97,8 @@ def test_columns_say_what_the_events_say(result):
         for prefix, state in zip(("", "other_"), event.states, strict=False):
             told = tuple(row[prefix + name] for name in ("x", "y", "vx", "vy", "wx", "wy", "wz", "motion"))
             assert told == (*state.position, *state.velocity, *state.spin, state.motion.name.lower())
+            if result.table.flies:
+                assert (row[prefix + "height"], row[prefix + "velocity_z"]) == (state.height, state.velocity_z)
         if len(event.states) == 1:
             assert math.isnan(row["other_x"])
             assert row["other_motion"] == ""

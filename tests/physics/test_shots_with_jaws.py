@@ -14,7 +14,7 @@ from support.worlds import from_kernel, shot_of, world_of
 import physics
 from physics.status import Status
 
-NINE = physics.RealTable.of_size("nine_foot").replace(cue_test=False)
+NINE = physics.RealTable.of_size("nine_foot").replace(cue_test=False, flight=False)
 R, RHO = 0.028575, NINE.contact_distance
 Position = tuple[float, float]
 LAWS = [("han", "alciatore"), ("mathavan", "alciatore"), ("factors", "consistent")]

@@ -14,7 +14,7 @@ from support.worlds import world_of
 
 import physics
 
-NINE = physics.RealTable.of_size("nine_foot")
+NINE = physics.RealTable.of_size("nine_foot").replace(flight=False)
 WORLD = world_of(NINE)
 
 

@@ -90,11 +90,32 @@ def test_tracks_are_where_the_balls_are(table):
     for time in np.linspace(0.0, result.duration, 200).tolist():
         snapshot = result.at(time)
         for track in followed:
-            if track.pocketed is None or time < track.pocketed:
+            gone = track.pocketed if track.left is None else track.left
+            if gone is None or time < gone:
                 assert track.at(time) == pytest.approx(snapshot.positions[track.ball].tolist(), abs=1e-9)
             else:
                 assert math.isnan(snapshot.positions[track.ball, 0])
     assert {track.ball for track in followed} == set(range(N_BALLS))
+
+
+def test_a_ball_driven_off_the_table_is_drawn_to_where_it_leaves_and_no_farther():
+    table = Table.nine_foot().replace(cue_test=False)
+    state = TableState.from_positions({0: (0.3, 1.0), 3: (0.9, 1.2)})
+    result = simulate(table, state, Shot(6.0, 180.0, 40.0))
+    cue_ball, three = tracks(result)
+    assert cue_ball.left == result.events.of("off_table")[0].time
+    assert not cue_ball.stays
+    assert three.stays
+    assert cue_ball.end[0] == pytest.approx(-table.rail_width, abs=1e-9)
+    times = np.linspace(0.0, cue_ball.left, 50)[:-1]
+    positions, heights = result.paths(times)
+    assert heights[:, 0].max() > 0.06
+    for time, there in zip(times.tolist(), positions[:, 0].tolist(), strict=True):
+        assert cue_ball.at(time) == pytest.approx(there, abs=1e-9)
+    drawn = pictures.svg(result)
+    assert drawn.count("translate(") == pictures.svg(state, table=table).count("translate("), (
+        "faint, and not at the end"
+    )
 
 
 def test_a_pocketed_ball_leads_into_its_hole_and_is_not_drawn_at_the_end():

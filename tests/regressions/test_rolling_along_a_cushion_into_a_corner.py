@@ -9,7 +9,7 @@ from support.moving import let_go, rolling
 
 import physics
 
-NINE = physics.Table.nine_foot().replace(cue_test=False)
+NINE = physics.Table.nine_foot().replace(cue_test=False, flight=False)
 RHO = NINE.contact_distance
 FOUND = [
     (0.4941341035308072, 2.5124862662941307, 180.0, 2.088551278505858, -4.201678140116241),

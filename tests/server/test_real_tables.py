@@ -105,7 +105,7 @@ def test_there_is_no_other_table(server):
         ({"ball_mass": "heavy"}, "table.ball_mass", "must be a number from 0.1 to 0.25 kg"),
         ({"cushion": "spongy"}, "table.cushion", "must be one of"),
         ({"ball": 3}, "table.ball", "must be one of"),
-        ({"flight": True}, "table.flight", "must be False"),
+        ({"flight": 1}, "table.flight", "must be True or False"),
         ({"collisions": "consistent"}, "table.collisions", "is not a parameter"),
         ({"width": 2.0}, "table.width", "is not a parameter"),
         ({"nap": 1}, "table.nap", "is not a parameter"),

@@ -42,7 +42,7 @@ def plays() -> Iterator[Play]:
 
 def plays_with_jaws() -> Iterator[Play]:
     """Tables with jaws: mid-game shots by every law, a rattle, balls in the jaws and frozen to horns, a break."""
-    rng, nine = np.random.default_rng(15), physics.RealTable.of_size("nine_foot").replace(cue_test=False)
+    rng, nine = np.random.default_rng(15), physics.RealTable.of_size("nine_foot").replace(cue_test=False, flight=False)
     for cushion, ball in (
         ("han", "alciatore"),
         ("mathavan", "alciatore"),
@@ -59,13 +59,31 @@ def plays_with_jaws() -> Iterator[Play]:
     yield "nine_foot, rattle", nine, state, physics.Shot(6.0, 182.5, 0.0, 2.0, 1.0)
     yield "nine_foot, hung balls", nine, state, physics.Shot(3.0, 180.9, 3.0, 0.0, -3.0)
     for size in ("eight_foot", "seven_foot"):
-        table = physics.RealTable.of_size(size).replace(cue_test=False)
+        table = physics.RealTable.of_size(size).replace(cue_test=False, flight=False)
         corner, side = (at_horn(shape, table.contact_distance) for shape in (table.corner_shape, table.side_shape))
         at_horns = {0: (0.5, 0.4), 1: corner, 2: (side[1], 0.5 * table.length + side[0]), 3: corner[::-1]}
         state = physics.TableState.from_positions(at_horns)
         yield f"{size}, frozen to horns", table, state, physics.Shot(4.0, 219.0, 0.0, -3.0, 2.0)
     state = physics.rack(nine, "eight_ball", seed=3)
     yield "nine_foot, break", nine, state, physics.Shot(11.0, 269.7, 4.0, 2.0, 3.0)
+    yield from plays_in_flight()
+
+
+def plays_in_flight() -> Iterator[Play]:
+    """Tables that fly: jumps, a jump into touching balls, rails and mouths from the air, hops of hard rail hits."""
+    table = physics.RealTable.of_size("nine_foot").replace(cue_test=False, flight=True)
+    touching = {1: (0.6, 0.6), 2: (0.6 + 2 * RADIUS, 0.6), 3: (0.6 + RADIUS, 0.6 - 0.0495)}
+    scenes = {
+        "jump": ({0: (0.6, 0.5), 1: (0.6, 0.8), 2: (0.62, 1.9)}, (3.2, 90.0, 45.0, 0.0, 20.0)),
+        "jump into touching balls": ({0: (0.61, 0.9)} | touching, (2.2, 269.5, 50.0, 1.0, 18.0)),
+        "over the rail": ({0: (0.333, 0.721), 1: (0.159, 0.83), 2: (0.3, 1.5)}, (9.5, 146.9, 10.0, 0.0, -4.0)),
+        "into a mouth": ({0: (0.3, 0.28), 1: (0.02, 0.02)}, (2.4, 222.0, 35.0, 0.0, 12.0)),
+        "70 degrees into a frozen ball": ({0: (0.6, 0.8), 1: (0.6, 0.8 - 2 * RADIUS)}, (4.0, 270.0, 70.0, 2.0, 12.0)),
+    }
+    for name, (positions, shot) in scenes.items():
+        yield f"flight, {name}", table, physics.TableState.from_positions(positions), physics.Shot(*shot)
+    hopping = table.replace(e_pressed=0.4, e_cloth=0.7)
+    yield "flight, hops", hopping, physics.rack(table, "eight_ball", seed=3), physics.Shot(9.0, 269.7, 6.0, 2.0, 3.0)
 
 
 def at_horn(shape: physics.mouths.Mouth, rho: float) -> tuple[float, float]:
@@ -83,6 +101,7 @@ def digest(play: Play) -> str:
         numbers = [event.time, event.ball, event.other]
         for ball in event.states:
             numbers += [*ball.position, *ball.velocity, *ball.spin, ball.motion]
+            numbers += [ball.height, ball.velocity_z] if ball.flight else []
         text.update(event.kind.value.encode() + np.array(numbers).tobytes())
     return text.hexdigest()
 

@@ -20,7 +20,7 @@ SAME_NAMES = (
 REAL_NAMES = (
     *("nose_height", "corner_cut", "side_cut", "corner_shelf", "side_shelf", "corner_hole_radius", "side_hole_radius"),
     *("horn_radius", "cushion_width", "ball_mass", "cue_end_mass", "mu_tip", "e_tip", "cushion", "e_cushion"),
-    *("mu_cushion", "ball"),
+    *("mu_cushion", "ball", "flight", "e_cloth", "e_strike", "e_pressed", "e_rail", "mu_rail", "rail_width"),
 )
 
 

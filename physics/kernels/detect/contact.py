@@ -4,13 +4,15 @@ The quartic f(t) is never expanded. With m a lower bound of f'' on an interval, 
 so its first root never oversteps a contact, and "no root" proves that there is none. f'' is a convex parabola: its
 least value on an interval is exact and cheap. (docs/physics.md, eq. 22-25.)
 
-A relative path is a ``Path``: c = (x, y), b = (vx, vy), a = (hx, hy).
+A relative path is a ``Path``, c = (x, y), b = (vx, vy), a = (hx, hy); a ``SpacePath``, one component more; or a
+``RingPath``. ``detect/distance.py`` knows what differs.
 """
 
 import math
 from typing import NamedTuple
 
 from physics.kernels.compiling import kernel, small_kernel
+from physics.kernels.detect.distance import curvature_of, least_curvature, reach_at, start_of
 from physics.kernels.tolerances import (
     DEEPER,
     ROOT_RESIDUAL,
@@ -40,16 +42,6 @@ class Root(NamedTuple):
 
 
 @small_kernel
-def least_curvature(c0, c1, c2, start, end):
-    """Least value of c0 + c1 t + c2 t^2 on [start, end], for c2 >= 0."""
-    if c1 + 2.0 * c2 * start >= 0.0:  # rising from the start on
-        return c0 + start * (c1 + start * c2)
-    if c1 + 2.0 * c2 * end <= 0.0:  # falling to the end
-        return c0 + end * (c1 + end * c2)
-    return c0 - 0.25 * c1 * c1 / c2  # the vertex, t = -c1 / 2 c2
-
-
-@small_kernel
 def first_step(f, slope, curvature):
     """First h >= 0 at which f + slope h + curvature h^2 / 2 reaches 0, for f >= 0; infinity if never.
 
@@ -72,24 +64,17 @@ def first_root(path, t_max, limit, squared):
     Starts outside (f >= 0, at the start possibly 0 while opening). Steps depend on ``t_max`` alone, so that the bits
     of a root do not depend on what else is known; the search ends early, LATER, beyond ``limit``.
     """
-    cx, cy, bx, by, ax, ay = path
     t = 0.0
-    # f = d.d - D^2 with d = c + b t + a t^2; f' = 2 d.d'; f'' = 2 d'.d' + 2 d.d'' with d' = b + 2 a t, d'' = 2 a:
-    # f'' = 2 b.b + 4 a.c + 12 (a.b) t + 12 (a.a) t^2 (eq. 23)
-    c0 = 2.0 * (bx * bx + by * by) + 4.0 * (ax * cx + ay * cy)
-    c1 = 12.0 * (ax * bx + ay * by)
-    c2 = 12.0 * (ax * ax + ay * ay)
+    curvature = curvature_of(path)
     reach = t_max
     for step in range(SOLVER_STEPS):
-        dx = cx + t * (bx + t * ax)
-        dy = cy + t * (by + t * ay)
-        f = dx * dx + dy * dy - squared
-        slope = 2.0 * (dx * (bx + 2.0 * ax * t) + dy * (by + 2.0 * ay * t))
+        squared_distance, slope = reach_at(path, t)
+        f = squared_distance - squared
         if f <= ROOT_RESIDUAL and step > 0:
             # Past the root only by rounding: a first step that ends at a graze keeps half the digits.
             return Root(t - f / slope if f < -ROOT_RESIDUAL and slope < 0.0 else t, MEETS)
         f = max(f, 0.0)
-        h = first_step(f, slope, least_curvature(c0, c1, c2, t, min(t + reach, t_max)))
+        h = first_step(f, slope, least_curvature(path, curvature, t, min(t + reach, t_max)))
         if h > reach:
             # Nothing within reach: proved. Look at the rest.
             if t + reach >= t_max:
@@ -117,8 +102,8 @@ def settled_root(path, t_max, limit, diameter):
     f(0) = f'(0) = 0 up to rounding would be "time 0 again" for ever. So the contact looked for is DEEPER than they are;
     from there it is walked back, by Newton's steps, to where the balls, having parted, meet.
     """
-    cx, cy, bx, by, ax, ay = path
-    distance = math.sqrt(cx * cx + cy * cy)
+    squared, _ = start_of(path)
+    distance = math.sqrt(squared)
     met = min(distance, diameter)
     deeper = met - DEEPER
     found = first_root(path, t_max, limit, deeper * deeper)
@@ -126,10 +111,8 @@ def settled_root(path, t_max, limit, diameter):
         return found
     back = found.time
     for _ in range(SETTLED_STEPS):
-        dx = cx + back * (bx + back * ax)
-        dy = cy + back * (by + back * ay)
-        slope = 2.0 * (dx * (bx + 2.0 * ax * back) + dy * (by + 2.0 * ay * back))
-        f = dx * dx + dy * dy - met * met
+        squared, slope = reach_at(path, back)
+        f = squared - met * met
         if abs(f) <= ROOT_RESIDUAL and slope < 0.0:
             return Root(back, MEETS)
         if slope >= 0.0:
@@ -147,13 +130,12 @@ def contact(path, t_max, limit, diameter):
     ``path``: of one ball's centre seen from the other. Cases: touching and approaching (0), neither, or opening;
     apart. Overlapping balls meet where they overlap as much again.
     """
-    cx, cy, bx, by, _, _ = path
-    squared = cx * cx + cy * cy
+    squared, advance = start_of(path)
     reached = diameter * diameter
     near = diameter + TOUCH
     if squared <= near * near:
         distance = math.sqrt(squared)
-        opening = (cx * bx + cy * by) / distance
+        opening = advance / distance
         if opening < -SLOW_APPROACH and distance <= diameter:
             return Root(0.0, AT_ONCE)
         if abs(opening) <= SLOW_APPROACH:

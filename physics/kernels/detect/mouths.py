@@ -12,12 +12,14 @@ Everything is met in jaw coordinates, signs flipped, both jaws of a corner alike
 import math
 
 from physics.kernels import layout as at
+from physics.kernels.apart import apart
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store_integer
 from physics.kernels.detect.boundary import Coming, lines_in_reach
 from physics.kernels.detect.jaws import JawOutline, drops, falling, from_facing, meets_facing, meets_horn
 from physics.kernels.detect.line import crossing
 from physics.kernels.path import Path, along
 from physics.kernels.tolerances import TOUCH
+from physics.kernels.workspace import RealWorkspace
 
 NO_MOUTH = -1
 
@@ -201,6 +203,7 @@ def upper_jaw(side):
     return 2 * side + int(side == at.POCKET_W)
 
 
+@apart(Coming, RealWorkspace, int, Path, float, Coming)
 @kernel
 def meet_mouth(s, pocket, path, lasts, best):
     """The first piece of a mouth that the path meets before ``best``."""

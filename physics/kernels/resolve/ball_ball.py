@@ -1,4 +1,4 @@
-"""Two balls alone (docs/physics.md, eq. 12-19): the consistent law and the historical one."""
+"""Two balls alone (docs/physics.md, eq. 12-19, 37): the consistent law, on cloth and in the air; the historical."""
 
 import math
 from typing import NamedTuple
@@ -6,7 +6,8 @@ from typing import NamedTuple
 from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, plain, small_kernel, store
 from physics.kernels.motion import moves
-from physics.kernels.resolve.pair_laws import friction
+from physics.kernels.resolve.flight import spin_of, velocity_of
+from physics.kernels.resolve.pair_laws import friction, length, rubbed, slip_in_space
 from physics.kernels.workspace import by_table
 
 HISTORICAL_FRICTION = 0.01
@@ -20,13 +21,14 @@ class Touch(NamedTuple):
     """Two touching balls.
 
     Attributes:
-        i, j: their numbers. nx, ny: unit normal n from i to j.
+        i, j: their numbers. nx, ny, nz: unit normal n from i to j; nz is 0 between balls on the cloth.
     """
 
     i: int
     j: int
     nx: float
     ny: float
+    nz: float
 
 
 @small_kernel
@@ -36,39 +38,75 @@ def add(memory, index, value):
 
 
 @small_kernel
-def touch_of(s, i, j):
-    """Two balls that touch, where they lie."""
+def touch_on_cloth(s, i, j):
+    """See ``touch_of``."""
     dx = load(s.w, at.X + j) - load(s.w, at.X + i)
     dy = load(s.w, at.Y + j) - load(s.w, at.Y + i)
     distance = math.sqrt(dx * dx + dy * dy)
-    return Touch(i, j, dx / distance, dy / distance)
+    return Touch(i, j, dx / distance, dy / distance, 0.0)
+
+
+@small_kernel
+def touch_in_space(s, i, j):
+    """See ``touch_of``; on the cloth with the same bits."""
+    dx = load(s.w, at.X + j) - load(s.w, at.X + i)
+    dy = load(s.w, at.Y + j) - load(s.w, at.Y + i)
+    dz = load(s.w, at.Z + j) - load(s.w, at.Z + i)
+    distance = math.sqrt((dx * dx + dy * dy) + dz * dz)
+    return Touch(i, j, dx / distance, dy / distance, dz / distance)
+
+
+touch_of = by_table(touch_on_cloth, touch_in_space)
+"""``touch_of(s, i, j)``: two balls that touch, where they are."""
 
 
 @small_kernel
 def turned(touch):
     """The same two balls, the other one first."""
-    return Touch(touch.j, touch.i, -touch.nx, -touch.ny)
+    return Touch(touch.j, touch.i, -touch.nx, -touch.ny, -touch.nz)
 
 
 @small_kernel
-def approach(s, touch):
-    """Normal speed at which two balls near each other, m/s: (v_i - v_j).n."""
-    i, j, nx, ny = touch
+def approach_on_cloth(s, touch):
+    """See ``approach``."""
+    i, j, nx, ny, _ = touch
     along_x = (load(s.w, at.VX + i) - load(s.w, at.VX + j)) * nx
     return along_x + (load(s.w, at.VY + i) - load(s.w, at.VY + j)) * ny
 
 
 @small_kernel
-def part(s, touch, change, shift):
-    """Push two balls apart along the normal, each by ``change`` (m/s): v_i -= change n, v_j += change n (eq. 13).
+def approach_in_space(s, touch):
+    """See ``approach``."""
+    upward = (load(s.w, at.VZ + touch.i) - load(s.w, at.VZ + touch.j)) * touch.nz
+    return approach_on_cloth(s, touch) + upward
 
-    Added to the rows ``shift`` behind the velocities and spins: 0 for these themselves.
-    """
-    i, j, nx, ny = touch
+
+approach = by_table(approach_on_cloth, approach_in_space)
+"""``approach(s, touch)``: normal speed at which two balls near each other, m/s: (v_i - v_j).n."""
+
+
+@small_kernel
+def part_on_cloth(s, touch, change, shift):
+    """See ``part``."""
+    i, j, nx, ny, _ = touch
     add(s.w, shift + at.VX + i, -change * nx)
     add(s.w, shift + at.VY + i, -change * ny)
     add(s.w, shift + at.VX + j, change * nx)
     add(s.w, shift + at.VY + j, change * ny)
+
+
+@small_kernel
+def part_in_space(s, touch, change, shift):
+    """See ``part``."""
+    part_on_cloth(s, touch, change, shift)
+    if touch.nz != 0.0:
+        add(s.w, shift + at.VZ + touch.i, -change * touch.nz)
+        add(s.w, shift + at.VZ + touch.j, change * touch.nz)
+
+
+part = by_table(part_on_cloth, part_in_space)
+"""``part(s, touch, change, shift)``: push two balls apart along the normal, each by ``change`` (m/s): v_i -= change n,
+v_j += change n (eq. 13). Added to the rows ``shift`` behind the velocities and spins: 0 for these themselves."""
 
 
 @small_kernel
@@ -87,14 +125,14 @@ ball_friction = by_table(constant_friction, friction_by_law)
 
 
 @small_kernel
-def rub(s, touch, normal_change, share, shift):
+def rub_on_cloth(s, touch, normal_change, share, shift):
     """Friction of one contact whose normal impulse changes each ball's velocity by ``normal_change`` (m/s).
 
     Impulse against the slip v1 - v2 - R n x (w1 + w2), of size min(mu J_n, m |slip| / (7 share)) over m; both
     spins change in the same sense, the vertical velocity is absorbed (eq. 14-17). Changes go to the rows ``shift``
     behind the velocities and spins.
     """
-    i, j, nx, ny = touch
+    i, j, nx, ny, _ = touch
     radius = load(s.p, at.P_RADIUS)
     spin_x = load(s.w, at.WX + i) + load(s.w, at.WX + j)
     spin_y = load(s.w, at.WY + i) + load(s.w, at.WY + j)
@@ -124,6 +162,48 @@ def rub(s, touch, normal_change, share, shift):
         add(s.w, shift + at.WZ + ball, turn * push_t)
 
 
+@kernel
+def rub_in_air(s, touch, normal_change, share, shift):
+    """The same where one of the balls is off the cloth: the vertical velocity is kept (eq. 37)."""
+    i, j, nx, ny, nz = touch
+    one = velocity_of(s, i), spin_of(s, i)
+    two = velocity_of(s, j), spin_of(s, j)
+    radius = load(s.p, at.P_RADIUS)
+    slip = slip_in_space(radius, (nx, ny, nz), one, two)
+    size = length(slip)
+    mu = ball_friction(s, size)
+    push, turn = rubbed(radius, (nx, ny, nz), slip, size, mu * normal_change, share)
+    add(s.w, shift + at.VX + i, push[0])
+    add(s.w, shift + at.VY + i, push[1])
+    add(s.w, shift + at.VZ + i, push[2])
+    add(s.w, shift + at.VX + j, -push[0])
+    add(s.w, shift + at.VY + j, -push[1])
+    add(s.w, shift + at.VZ + j, -push[2])
+    for ball in (i, j):
+        add(s.w, shift + at.WX + ball, turn[0])
+        add(s.w, shift + at.WY + ball, turn[1])
+        add(s.w, shift + at.WZ + ball, turn[2])
+
+
+@small_kernel
+def is_in_air(s, touch):
+    """Whether one of two touching balls is off the cloth."""
+    return (load(s.w, at.Z + touch.i) > 0.0) | (load(s.w, at.Z + touch.j) > 0.0)
+
+
+@kernel
+def rub_anywhere(s, touch, normal_change, share, shift):
+    """See ``rub``."""
+    if is_in_air(s, touch):
+        rub_in_air(s, touch, normal_change, share, shift)
+    else:
+        rub_on_cloth(s, touch, normal_change, share, shift)
+
+
+rub = by_table(rub_on_cloth, rub_anywhere)
+"""``rub(s, touch, normal_change, share, shift)``: friction of one contact. See ``rub_on_cloth``."""
+
+
 @small_kernel
 def collide(s, touch, closing):
     """Two balls of equal mass approaching at ``closing`` (m/s): J_n = (1 + e)/2 m v_n (eq. 12), then friction."""
@@ -139,7 +219,7 @@ def collide_historically(s, touch, j_rests):
     ``j_rests`` (0 or 1): ball j stays where it is, whether or not it spins there; then spin is transferred with
     opposite signs, else both are set to natural roll.
     """
-    i, j, nx, ny = touch
+    i, j, nx, ny, _ = touch
     radius = load(s.p, at.P_RADIUS)
     tx, ty = -ny, nx
     v1x, v1y, v2x, v2y = load(s.w, at.VX + i), load(s.w, at.VY + i), load(s.w, at.VX + j), load(s.w, at.VY + j)
@@ -180,15 +260,15 @@ def collide_historically(s, touch, j_rests):
 
 
 @small_kernel
-def is_historical(s):
+def is_historical(s, _touch):
     """Whether two balls collide by the historical law."""
     return load(s.p, at.P_HISTORICAL) != 0.0
 
 
 @small_kernel
-def is_fastfiz(s):
-    """The same on a table with jaws."""
-    return load(s.p, at.P_BALL_LAW) == at.FASTFIZ
+def is_fastfiz(s, touch):
+    """The same on a table with jaws; in the air there is no such law."""
+    return load(s.p, at.P_BALL_LAW) == at.FASTFIZ and not is_in_air(s, touch)
 
 
 collides_historically = by_table(is_historical, is_fastfiz)
@@ -197,7 +277,7 @@ collides_historically = by_table(is_historical, is_fastfiz)
 @small_kernel
 def push_alone(s, touch, closing):
     """The collision of two balls that share it with no other, by the table's law."""
-    if not collides_historically(s):
+    if not collides_historically(s, touch):
         collide(s, touch, closing)
     elif moves(load_integer(s.k, at.MOTION + touch.i)):
         collide_historically(s, touch, int(not moves(load_integer(s.k, at.MOTION + touch.j))))

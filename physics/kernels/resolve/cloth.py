@@ -4,10 +4,12 @@ import math
 
 from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store, store_integer
+from physics.kernels.resolve.flight import is_airborne, keep_down, land_for_good, take_off
+from physics.kernels.workspace import by_table
 
 
 @small_kernel
-def classify(s, i):
+def state_on_cloth(s, i):
     """Motion state of ball ``i`` on the cloth from its velocity and spin (eq. 10-11)."""
     limit = load(s.p, at.P_NO_SLIP)
     radius = load(s.p, at.P_RADIUS)
@@ -27,8 +29,18 @@ def classify(s, i):
 
 
 @small_kernel
-def begin(s, i, motion):
-    """Put ball ``i``, anchored where it is, into ``motion``: its acceleration and the time the state ends."""
+def state_anywhere(s, i):
+    """See ``classify``."""
+    return at.FLYING if is_airborne(s, i) else state_on_cloth(s, i)
+
+
+classify = by_table(state_on_cloth, state_anywhere)
+"""``classify(s, i)``: motion state of ball ``i`` from where it is, its velocity and spin."""
+
+
+@small_kernel
+def begin_on_cloth(s, i, motion):
+    """See ``begin``."""
     store_integer(s.k, at.MOTION + i, motion)
     hx = 0.0
     hy = 0.0
@@ -66,6 +78,20 @@ def begin(s, i, motion):
     store(s.w, at.END + i, load(s.w, at.SINCE + i) + lasts)
 
 
+@kernel
+def begin_anywhere(s, i, motion):
+    """See ``begin``."""
+    if motion == at.FLYING:
+        take_off(s, i)
+    else:
+        land_for_good(s, i)
+        begin_on_cloth(s, i, motion)
+
+
+begin = by_table(begin_on_cloth, begin_anywhere)
+"""``begin(s, i, motion)``: put ball ``i``, anchored where it is, into ``motion``: its acceleration and when it ends."""
+
+
 @small_kernel
 def restate(s, changed):
     """Give each ball whose velocity changed the motion state its velocity and spin call for.
@@ -76,6 +102,7 @@ def restate(s, changed):
     while rest != 0:
         i = lowest_bit(rest)
         rest &= rest - 1
+        keep_down(s, i)
         begin(s, i, classify(s, i))
 
 

@@ -4,14 +4,19 @@ Pairwise impulses in some order are no answer: which ball of a struck rack moves
 acts in rounds, each from one common set of velocities (docs/physics.md, "Contacts"):
 
 1. balls: all touching pairs approaching faster than SLOW_APPROACH act together (impulses.py);
-2. cushions, only when no pair approaches;
+2. cushions, only when no pair approaches; where balls fly, then the cloth;
 3. resting: pairs and cushions that would meet again within REST_TIME are parted or held (resting.py).
+
+What friction is for balls on the cloth, nothing is for a ball that others hold up: gravity presses it anew for ever. So
+where a ball flies, what the collisions of the instant took may go into parting it: a ball that rests on others bounces
+by a micrometre, a thousand times a second, as if elastic, until it has come down or is perched.
 
 Nothing looks at ball numbers, left or right. Every round parts what approached by at least SLOW_APPROACH, and a pair
 left alone meets at most once in REST_TIME: it ends.
 """
 
 from physics.kernels import layout as at
+from physics.kernels.apart import apart
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, plain, small_kernel, store_integer
 from physics.kernels.recording import note_contact, note_cushion, record
 from physics.kernels.resolve.ball_ball import approach, push_alone, touch_of
@@ -27,10 +32,13 @@ from physics.kernels.resolve.boundary import (
     touched_cushion,
 )
 from physics.kernels.resolve.cloth import restate
+from physics.kernels.resolve.flight import any_flies
 from physics.kernels.resolve.impulses import push_pairs, settle_slow_pairs
+from physics.kernels.resolve.landing import count_partings, is_landing, landing_balls, meet_cloths, press_down
 from physics.kernels.resolve.resting import energy, lay_still, part_pressed_pairs, scale_down
 from physics.kernels.resolve.touching import bring, gather, neighbours, neighbours_of_two, pair
 from physics.kernels.tolerances import ROUND_LIMIT, SLOW_APPROACH, SOFT_CUSHION, STOP_BELOW
+from physics.kernels.workspace import RealWorkspace
 
 UNSETTLED = -1
 """Returned instead of a bit set when ROUND_LIMIT was reached."""
@@ -122,14 +130,17 @@ def hold_at_cushions(s, members, also_returning):
 
 
 @small_kernel
-def calm(s, members, allowed, quiet, time):
+def calm(s, members, allowed, in_air, quiet, time):
     """After the rounds: bound the energy, stop what hardly moves; record the balls in ``quiet`` and those changed here.
 
     A contact event tells of every ball that changed since its last event.
     """
-    if scale_down(s, members, allowed):
+    if scale_down(s, members, allowed, in_air):
         quiet = members
         restate(s, members)
+    pressed = press_down(s, members)
+    restate(s, pressed)
+    quiet |= pressed
     stilled = lay_still(s, members)
     restate(s, stilled)
     quiet |= stilled
@@ -140,6 +151,7 @@ def calm(s, members, allowed, quiet, time):
         rest &= rest - 1
 
 
+@apart(int, RealWorkspace, int, float)
 @kernel
 def settle_cluster(s, i, time):
     """``settle`` in full, round by round."""
@@ -147,6 +159,11 @@ def settle_cluster(s, i, time):
     quiet = 0  # balls changed since their last event
     allowed = -1.0  # energy before anything was held or parted
     resting = False  # step 3 has begun
+    parted = 0  # balls that step 3 has changed
+    landing = landing_balls(s, members)  # by a flight that ends here
+    in_air = any_flies(s, members)
+    if in_air:
+        allowed = energy(s, members)
     for _ in range(ROUND_LIMIT):
         pushed = 0 if resting else push_pairs(s, members)
         if pushed != 0:
@@ -160,11 +177,19 @@ def settle_cluster(s, i, time):
         quiet = quiet & ~rebounding | held
         if held != 0 and allowed < 0.0:
             allowed = before
-        if rebounding | held:
+        if resting:
+            fallen = press_down(s, members)
+            restate(s, fallen)
+        else:
+            fallen = meet_cloths(s, members, landing, time)
+        quiet = (quiet | fallen) & ~(fallen & landing)
+        landing &= ~fallen
+        if rebounding | held | fallen:
             continue
         if not resting:
             resting = True
             changed = settle_slow_pairs(s, members)
+            changed |= press_down(s, members)
             restate(s, changed)
             quiet |= changed
         if allowed < 0.0:
@@ -172,8 +197,10 @@ def settle_cluster(s, i, time):
         changed = part_pressed_pairs(s) | hold_at_cushions(s, members, plain(1))
         restate(s, changed)
         quiet |= changed
-        if changed == 0 or STOP_BELOW * energy(s, members) > allowed:
-            calm(s, members, allowed, quiet, time)
+        parted |= changed
+        if changed == 0 or (not in_air and STOP_BELOW * energy(s, members) > allowed):
+            count_partings(s, parted)
+            calm(s, members, allowed, in_air, quiet, time)
             return members
     return UNSETTLED
 
@@ -204,6 +231,7 @@ def meet_ball_alone(s, i, j, time):
     return -approach(s, touch) > load(s.p, at.P_SLIDE) * load(s.p, at.P_REST_TIME)
 
 
+@apart(int, RealWorkspace, int, int, float)
 @kernel
 def settle(s, i, j, time):
     """Resolve the touching cluster of ball ``i`` at ``time``; ``j``: the ball it meets there, or NOBODY.
@@ -216,10 +244,15 @@ def settle(s, i, j, time):
     if j != at.NOBODY and cushion == at.NO_CUSHION:
         bring(s, j, time)
         near_i, near_j = neighbours_of_two(s, i, j, time)
-        if near_i == 1 << j and near_j == 1 << i and touched_cushion(s, j) == at.NO_CUSHION:
+        alone = near_i == 1 << j and near_j == 1 << i and touched_cushion(s, j) == at.NO_CUSHION
+        if alone and not any_flies(s, 1 << i | 1 << j):
             low, high = min(i, j), max(i, j)
             if meet_ball_alone(s, low, high, time):
                 return 1 << i | 1 << j
-    elif neighbours(s, i, time) == 0 and (cushion == at.NO_CUSHION or meet_cushion_alone(s, i, cushion, time)):
+    elif (
+        neighbours(s, i, time) == 0
+        and not is_landing(s, i)
+        and (cushion == at.NO_CUSHION or meet_cushion_alone(s, i, cushion, time))
+    ):
         return 1 << i
     return settle_cluster(s, i, time)

@@ -4,6 +4,7 @@ from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, store, store_integer
 from physics.kernels.resolve.ball_ball import add, approach, part, push_alone, rub
 from physics.kernels.resolve.touching import listed, pair
+from physics.kernels.resolve.vertical import add_vertical_change, clear_vertical_changes, plus_square, vertical_change
 from physics.kernels.tolerances import SLOW_APPROACH
 
 
@@ -44,6 +45,7 @@ def linked_to(s, first, second):
 @kernel
 def clear_changes(s):
     """Set the changes of a round to zero."""
+    clear_vertical_changes(s)
     for n in range(at.VX_CHANGE, at.WZ_CHANGE + at.LANES):
         store(s.w, n, 0.0)
 
@@ -57,6 +59,7 @@ def apply_changes(s, members, scale):
         rest &= rest - 1
         for quantity in at.SPEEDS:
             add(s.w, quantity + i, scale * load(s.w, at.CHANGE + quantity + i))
+        add_vertical_change(s, i, scale)
 
 
 @kernel
@@ -78,7 +81,7 @@ def push_group(s, group, bounce):
     size = 0.0
     for i in range(at.LANES):
         dx, dy = load(s.w, at.VX_CHANGE + i), load(s.w, at.VY_CHANGE + i)
-        size += dx * dx + dy * dy
+        size += plus_square(s, dx * dx + dy * dy, vertical_change(s, i))
     # v.D = -sum of c^2 / 2 = -work, so that |v + x D|^2 - |v|^2 = x (x D.D - 2 work): 0 at x = 2 lambda (eq. 26)
     scale = bounce * work / size
     apply_changes(s, group, scale)

@@ -44,11 +44,17 @@ def friction(slip):
 
 
 @small_kernel
-def rub_in_space(radius, normal, one, two, push, mu):
-    """Friction after a normal impulse ``push`` (m/s): (change of ball 1's velocity, of both spins).
+def length(vector):
+    """Of a vector of three components; those in the plane are summed first: exchanging them keeps the bits."""
+    x, y, z = vector
+    return math.sqrt((x * x + y * y) + z * z)
 
-    ``one`` and ``two``: (v, w), three components each; ``normal`` from ball 1 to ball 2. The slip is
-    v1 - v2 - R n x (w1 + w2) without its normal part, the impulse min(mu J, |s| / 7) against it.
+
+@small_kernel
+def slip_in_space(radius, normal, one, two):
+    """The slip v1 - v2 - R n x (w1 + w2) without its normal part, three components.
+
+    ``one`` and ``two``: (v, w), three components each; ``normal`` from ball 1 to ball 2.
     """
     (ax, ay, az), (px, py, pz) = one
     (bx, by, bz), (qx, qy, qz) = two
@@ -56,13 +62,24 @@ def rub_in_space(radius, normal, one, two, push, mu):
     dx, dy, dz = ax - bx, ay - by, az - bz
     wx, wy, wz = px + qx, py + qy, pz + qz
     closing = (nx * dx + ny * dy) + nz * dz
-    sx = dx - closing * nx - radius * (ny * wz - nz * wy)
-    sy = dy - closing * ny - radius * (nz * wx - nx * wz)
-    sz = dz - closing * nz - radius * (nx * wy - ny * wx)
-    slip = math.sqrt((sx * sx + sy * sy) + sz * sz)
-    if slip == 0.0:
+    return (
+        dx - closing * nx - radius * (ny * wz - nz * wy),
+        dy - closing * ny - radius * (nz * wx - nx * wz),
+        dz - closing * nz - radius * (nx * wy - ny * wx),
+    )
+
+
+@small_kernel
+def rubbed(radius, normal, slip, size, most, share):
+    """Friction against a slip of ``size``: (change of ball 1's velocity, of both spins).
+
+    The impulse is at most ``most`` (m/s), and |slip| / (7 ``share``), which ends the slip of ``share`` contacts.
+    """
+    if size == 0.0:
         return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-    rub = min(mu * push, slip / 7.0) / slip
+    nx, ny, nz = normal
+    sx, sy, sz = slip
+    rub = min(most, size / (7.0 * share)) / size
     turn = -2.5 * rub / radius
     return (
         (-rub * sx, -rub * sy, -rub * sz),
@@ -74,7 +91,8 @@ def rub_in_space(radius, normal, one, two, push, mu):
 def collide_in_space(radius, normal, one, two, e, mu):
     """Two balls of equal mass, anywhere: normal impulse (1 + e)/2 v_n, then friction (docs/physics.md, eq. 37).
 
-    Arguments as for ``rub_in_space``; balls that do not approach stay as they are. Returns (v1, w1), (v2, w2).
+    Arguments as for ``slip_in_space``, ``mu`` of friction; balls that do not approach stay as they are.
+    Returns (v1, w1), (v2, w2).
     """
     (ax, ay, az), (px, py, pz) = one
     (bx, by, bz), (qx, qy, qz) = two
@@ -83,7 +101,8 @@ def collide_in_space(radius, normal, one, two, e, mu):
     if closing <= 0.0:
         return one, two
     push = 0.5 * (1.0 + e) * closing
-    (rx, ry, rz), (tx, ty, tz) = rub_in_space(radius, normal, one, two, push, mu)
+    slip = slip_in_space(radius, normal, one, two)
+    (rx, ry, rz), (tx, ty, tz) = rubbed(radius, normal, slip, length(slip), mu * push, 1.0)
     return (
         ((ax - push * nx + rx, ay - push * ny + ry, az - push * nz + rz), (px + tx, py + ty, pz + tz)),
         ((bx + push * nx - rx, by + push * ny - ry, bz + push * nz - rz), (qx + tx, qy + ty, qz + tz)),

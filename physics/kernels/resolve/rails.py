@@ -8,13 +8,26 @@ import math
 from typing import NamedTuple
 
 from physics.kernels import layout as at
+from physics.kernels.apart import apart
 from physics.kernels.compiling import kernel, load, load_integer, plain, small_kernel, store
 from physics.kernels.detect.jaws import from_facing
 from physics.kernels.detect.mouths import end_jaw, is_corner, jaw_at, rail_touched, signs_of, upper_jaw
 from physics.kernels.motion import on_table
 from physics.kernels.recording import record
 from physics.kernels.resolve.cushion_laws import han, mathavan
+from physics.kernels.resolve.fixed import impact
+from physics.kernels.resolve.flight import pressed_up
+from physics.kernels.resolve.rails_in_air import (
+    edge_of,
+    hold_in_air,
+    open_at,
+    opening_in_air,
+    rebound_in_air,
+    returns_in_air,
+    touched_in_air,
+)
 from physics.kernels.tolerances import ROUNDING_ACROSS
+from physics.kernels.workspace import RealWorkspace
 
 
 class Wall(NamedTuple):
@@ -34,8 +47,11 @@ class Wall(NamedTuple):
 @small_kernel
 def touched(s, i):
     """Cushion or jaw that ball ``i`` touches, or NO_CUSHION. At most one: jaws are farther apart than a ball is."""
-    if not on_table(load_integer(s.k, at.MOTION + i)):
+    motion = load_integer(s.k, at.MOTION + i)
+    if not on_table(motion):
         return at.NO_CUSHION
+    if motion == at.FLYING:
+        return touched_in_air(s, i)
     return rail_touched(s, load(s.w, at.X + i), load(s.w, at.Y + i))
 
 
@@ -112,9 +128,18 @@ def half_away(s, wall, i):
 
 
 @small_kernel
+def flies(s, i):
+    """Whether ball ``i`` is in the air."""
+    return load_integer(s.k, at.FLYING_BALLS) >> i & 1 != 0
+
+
+@kernel
 def speed_towards(s, i, number):
     """Speed of ball ``i`` towards a cushion or jaw that it touches, m/s."""
-    return -opening(s, wall_at(s, number, i), i)
+    wall = wall_at(s, number, i)
+    if flies(s, i):
+        return -opening_in_air(s, edge_of(s, wall, i), i)
+    return -opening(s, wall, i)
 
 
 @small_kernel
@@ -142,6 +167,13 @@ def factors(s, wall, v, w):
     )
 
 
+@small_kernel
+def nose_normal(s, wall):
+    """From the nose of a wall to the centre of a ball on the cloth, unit: it points down."""
+    cosine = load(s.p, at.P_NOSE_COSINE)
+    return cosine * wall.nx, cosine * wall.ny, load(s.p, at.P_NOSE_SINE)
+
+
 @kernel
 def by_law(s, wall, v, w):
     """Velocity and spin after a collision with a wall, by the table's cushion law."""
@@ -149,20 +181,33 @@ def by_law(s, wall, v, w):
     if law == at.FACTORS:
         return factors(s, wall, v, w)
     radius, e, mu = load(s.p, at.P_RADIUS), load(s.p, at.P_E_CUSHION), load(s.p, at.P_MU_CUSHION)
-    cosine, sine = load(s.p, at.P_NOSE_COSINE), load(s.p, at.P_NOSE_SINE)
-    normal = (cosine * wall.nx, cosine * wall.ny, sine)
+    normal = nose_normal(s, wall)
     if law == at.HAN:
         return han(radius, v, w, normal, e, mu)
     return mathavan(radius, v, w, normal, e, mu, load(s.p, at.P_MU_SLIDE))
 
 
 @small_kernel
+def thrown(s, wall, v, w):
+    """Vertical speed that ``han`` leaves a ball on the cloth: pressed down it comes up by ``e_pressed``."""
+    radius, e, mu = load(s.p, at.P_RADIUS), load(s.p, at.P_E_CUSHION), load(s.p, at.P_MU_CUSHION)
+    (_, _, vz), _ = impact(radius, (v[0], v[1], 0.0), w, nose_normal(s, wall), e, mu)
+    return pressed_up(s, -vz) if vz < 0.0 else vz
+
+
+@apart(None, RealWorkspace, int, int)
+@kernel
 def rebound(s, i, number):
-    """A collision with a cushion or jaw, by the table's law."""
+    """A collision with a cushion or jaw, by the table's law; in the air by the impact law."""
     wall = wall_at(s, number, i)
+    if flies(s, i):
+        rebound_in_air(s, edge_of(s, wall, i), i)
+        return
     put_at(s, wall, i)
     v = load(s.w, at.VX + i), load(s.w, at.VY + i)
     w = load(s.w, at.WX + i), load(s.w, at.WY + i), load(s.w, at.WZ + i)
+    if load(s.p, at.P_FLIGHT) != 0.0 and load(s.p, at.P_CUSHION_LAW) == at.HAN:
+        store(s.w, at.VZ + i, thrown(s, wall, v, w))
     v, w = by_law(s, wall, v, w)
     store(s.w, at.VX + i, v[0])
     store(s.w, at.VY + i, v[1])
@@ -185,27 +230,35 @@ def take_across(s, x_row, i, nx, ny):
         store(s.w, x_row + at.LANES + i, y - taken * ny)
 
 
-@small_kernel
+@kernel
 def stop(s, i, number):
     """An approach that is rounding: no velocity across the wall; the spin is kept, for it may carry the ball off."""
     wall = wall_at(s, number, i)
+    if flies(s, i):
+        open_at(s, edge_of(s, wall, i), i, 0.0)
+        return
     put_at(s, wall, i)
     take_across(s, at.VX, i, wall.nx, wall.ny)
 
 
-@small_kernel
+@kernel
 def hold(s, i, number):
     """A soft touch: no velocity across the wall, no spin about its direction; nothing else changes."""
     wall = wall_at(s, number, i)
+    if flies(s, i):
+        hold_in_air(s, edge_of(s, wall, i), wall, i)
+        return
     put_at(s, wall, i)
     take_across(s, at.VX, i, wall.nx, wall.ny)
     take_across(s, at.WX, i, -wall.ny, wall.nx)
 
 
-@small_kernel
+@kernel
 def returns(s, i, number):
     """Whether ball ``i``'s own acceleration brings it back to a cushion or jaw it touches within the rest time."""
     wall = wall_at(s, number, i)
+    if flies(s, i):
+        return returns_in_air(s, edge_of(s, wall, i), wall, i)
     half = -half_away(s, wall, i)
     return half > 0.0 and opening(s, wall, i) < half * load(s.p, at.P_REST_TIME)
 
@@ -228,13 +281,15 @@ def is_same(_s, one, other):
     return cushion_of(one) == cushion_of(other)
 
 
-@small_kernel
+@kernel
 def leaves(s, i, number):
     """Whether a ball that has touched the cushion of ``number`` ever since is leaving it, or touches it no more."""
     here = touched(s, i)
     if here == at.NO_CUSHION or cushion_of(here) != cushion_of(number):
         return True
     wall = wall_at(s, here, i)
+    if flies(s, i):
+        return opening_in_air(s, edge_of(s, wall, i), i) > 0.0
     speed = opening(s, wall, i)
     return speed > 0.0 or (speed == 0.0 and half_away(s, wall, i) > 0.0)
 

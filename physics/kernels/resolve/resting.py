@@ -5,19 +5,50 @@ import math
 from physics.kernels import layout as at
 from physics.kernels.compiling import kernel, load, load_integer, lowest_bit, small_kernel, store
 from physics.kernels.resolve.ball_ball import approach
+from physics.kernels.resolve.flight import any_flies
 from physics.kernels.resolve.impulses import linked_to, push_group
 from physics.kernels.resolve.touching import listed, pair
+from physics.kernels.resolve.vertical import plus_square, scale_vertical, vertical_speed
 from physics.kernels.tolerances import PARTING_SHARE, PARTING_SLACK, PRESSING, SLOW_APPROACH, STILL, STOP_BELOW
+from physics.kernels.workspace import by_table
 
 
 @small_kernel
-def pressing(s, touch):
-    """Acceleration at which the gap between touching balls closes, m/s^2: A = -n.(a2 - a1) - |v_t|^2 / 2R (eq. 29)."""
-    i, j, nx, ny = touch
+def pressing_on_cloth(s, touch):
+    """See ``pressing``."""
+    i, j, nx, ny, _ = touch
     ax = 2.0 * (load(s.w, at.HX + j) - load(s.w, at.HX + i))
     ay = 2.0 * (load(s.w, at.HY + j) - load(s.w, at.HY + i))
     vt = (load(s.w, at.VY + j) - load(s.w, at.VY + i)) * nx - (load(s.w, at.VX + j) - load(s.w, at.VX + i)) * ny
     return -(nx * ax + ny * ay) - vt * vt / (2.0 * load(s.p, at.P_RADIUS))
+
+
+@kernel
+def pressing_in_air(s, touch):
+    """See ``pressing``: gravity presses too."""
+    i, j, nx, ny, nz = touch
+    ax = 2.0 * (load(s.w, at.HX + j) - load(s.w, at.HX + i))
+    ay = 2.0 * (load(s.w, at.HY + j) - load(s.w, at.HY + i))
+    az = 2.0 * (load(s.w, at.HZ + j) - load(s.w, at.HZ + i))
+    vx = load(s.w, at.VX + j) - load(s.w, at.VX + i)
+    vy = load(s.w, at.VY + j) - load(s.w, at.VY + i)
+    vz = load(s.w, at.VZ + j) - load(s.w, at.VZ + i)
+    tx, ty, tz = ny * vz - nz * vy, nz * vx - nx * vz, nx * vy - ny * vx  # n x v: as long as v_t
+    across = (tx * tx + ty * ty) + tz * tz
+    return -((nx * ax + ny * ay) + nz * az) - across / (2.0 * load(s.p, at.P_RADIUS))
+
+
+@kernel
+def pressing_anywhere(s, touch):
+    """See ``pressing``."""
+    if any_flies(s, 1 << touch.i | 1 << touch.j):
+        return pressing_in_air(s, touch)
+    return pressing_on_cloth(s, touch)
+
+
+pressing = by_table(pressing_on_cloth, pressing_anywhere)
+"""``pressing(s, touch)``: acceleration at which the gap between touching balls closes, m/s^2:
+A = -n.(a2 - a1) - |v_t|^2 / 2R (eq. 29)."""
 
 
 @small_kernel
@@ -62,23 +93,28 @@ def energy(s, members):
         rest &= rest - 1
         vx, vy = load(s.w, at.VX + i), load(s.w, at.VY + i)
         wx, wy, wz = load(s.w, at.WX + i), load(s.w, at.WY + i), load(s.w, at.WZ + i)
-        twice += vx * vx + vy * vy + inertia * (wx * wx + wy * wy + wz * wz)
+        moving = plus_square(s, vx * vx + vy * vy, vertical_speed(s, i))
+        twice += moving + inertia * (wx * wx + wy * wy + wz * wz)
     return 0.5 * twice
 
 
 @kernel
-def scale_down(s, members, allowed):
-    """Scale velocities and spins so that the cluster's energy is at most ``allowed``; whether it had to (eq. 31)."""
+def scale_down(s, members, allowed, in_air):
+    """Scale velocities and spins so that the cluster's energy is at most ``allowed``; whether it had to (eq. 31).
+
+    One that would lose more than half stops instead, unless a ball of it is ``in_air``.
+    """
     now = energy(s, members)
     if now <= allowed:
         return False
-    scale = math.sqrt(allowed / now) if allowed >= STOP_BELOW * now else 0.0
+    scale = math.sqrt(allowed / now) if in_air or allowed >= STOP_BELOW * now else 0.0
     rest = members
     while rest != 0:
         i = lowest_bit(rest)
         rest &= rest - 1
         for quantity in at.SPEEDS:
             store(s.w, quantity + i, scale * load(s.w, quantity + i))
+        scale_vertical(s, i, scale)
     return True
 
 
@@ -94,5 +130,6 @@ def lay_still(s, members):
         if 0.0 < size <= 0.5 * STILL * STILL:
             for quantity in at.SPEEDS:
                 store(s.w, quantity + i, 0.0)
+            scale_vertical(s, i, 0.0)
             stopped |= 1 << i
     return stopped

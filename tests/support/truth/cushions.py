@@ -5,29 +5,11 @@ documentation names, 200 for the approach: it is a method, not a closed form.
 """
 
 from mpmath import mp, mpc, mpf
+from support.truth.flight import NO_SLIP, impact, pressed_up
 from support.truth.model import Ball, RealWorld, dot
+from support.truth.space import Space, cross, inner, plus, size
 
 STEPS = 200
-NO_SLIP = mpf("1e-12")
-
-Space = tuple[mpc, mpf]
-
-
-def cross(a: Space, b: Space) -> Space:
-    (p, z), (q, u) = a, b
-    return mpc(p.imag * u - z * q.imag, z * q.real - p.real * u), p.real * q.imag - p.imag * q.real
-
-
-def inner(a: Space, b: Space) -> mpf:
-    return dot(a[0], b[0]) + a[1] * b[1]
-
-
-def plus(a: Space, b: Space, factor: mpf) -> Space:
-    return a[0] + factor * b[0], a[1] + factor * b[1]
-
-
-def size(a: Space) -> mpf:
-    return mp.sqrt(inner(a, a))
 
 
 def nose_normal(world: RealWorld, inward: mpc) -> Space:
@@ -41,13 +23,11 @@ def slip_at(world: RealWorld, v: Space, w: Space, n: Space) -> Space:
 
 
 def han(world: RealWorld, ball: Ball, inward: mpc) -> None:
-    """F1 at the nose; the vertical speed is taken up by the cloth."""
+    """F1 at the nose; the vertical speed is taken up by the cloth, or comes back by ``e_pressed`` where balls fly."""
     n, v, w = nose_normal(world, inward), (ball.velocity, mpf(0)), (ball.w_xy, ball.w_z)
-    push = -(1 + world.e_cushion) * inner(v, n)
-    s = slip_at(world, v, w, n)
-    rub = min(world.mu_cushion * push, 2 * size(s) / 7) / size(s) if size(s) > NO_SLIP else mpf(0)
-    ball.velocity = plus(plus(v, n, push), s, -rub)[0]
-    ball.w_xy, ball.w_z = plus(w, cross(n, s), 5 * rub / (2 * world.radius))
+    (ball.velocity, up), (ball.w_xy, ball.w_z) = impact(world, v, w, n, world.e_cushion, world.mu_cushion)
+    if world.flight:
+        ball.rise = pressed_up(world, -up) if up < 0 else up
 
 
 def mathavan(world: RealWorld, ball: Ball, inward: mpc) -> None:

@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 
 from mpmath import mp, mpf
-from support.truth.model import MOVING, Ball, Motion, RealWorld, World, dot
+from support.truth.flight import rise_path
+from support.truth.model import MOVING, OUT_OF_PLAY, Ball, Motion, RealWorld, World, dot
 from support.truth.moments import Event, deflated, may_reach, moving_until, path, stays_clear
 from support.truth.motion import lifetime
 from support.truth.octagon import Line, in_side_mouth, lines, touched_cushions
@@ -21,18 +22,20 @@ def pair_contact(world: World, one: Ball, two: Ball, time: mpf) -> Event | None:
         return None
     p, q = path(world, one, time), path(world, two, time)
     c, b, a = (y - x for x, y in zip(p, q, strict=True))
-    touch = abs(c) - 2 * world.radius <= world.touch
+    zc, zb, za = (y - x for x, y in zip(rise_path(world, one, time), rise_path(world, two, time), strict=True))
+    distance = mp.sqrt(dot(c, c) + zc * zc)
+    touch = distance - 2 * world.radius <= world.touch
     if not touch and not may_reach(c, b, a, float(end - time), 2 * float(world.radius)):
         return None
     quartic = [
-        dot(c, c) - 4 * world.radius**2,
-        2 * dot(b, c),
-        dot(b, b) + 2 * dot(a, c),
-        2 * dot(a, b),
-        dot(a, a),
+        dot(c, c) + zc * zc - 4 * world.radius**2,
+        2 * (dot(b, c) + zb * zc),
+        dot(b, b) + zb * zb + 2 * (dot(a, c) + za * zc),
+        2 * (dot(a, b) + za * zb),
+        dot(a, a) + za * za,
     ]
     if touch:
-        quartic = deflated(quartic, dot(b, c) / abs(c), world)
+        quartic = deflated(quartic, (dot(b, c) + zb * zc) / distance, world)
     t = first_fall(quartic, end - time)
     return None if t is None else Event(time + t, "ball_collision", *sorted((one.number, two.number)))
 
@@ -95,7 +98,7 @@ def boundary_of(world: World) -> Boundary:
 
 def own_event(world: World, boundary: Boundary, ball: Ball, time: mpf) -> Event | None:
     """The ball's next transition, cushion or pocket."""
-    if ball.motion in (Motion.STATIONARY, Motion.POCKETED):
+    if ball.motion in (Motion.STATIONARY, *OUT_OF_PLAY):
         return None
     end = Event(ball.since + lifetime(world, ball), "transition", ball.number)
     return min([end, *boundary.meets(ball, time)], key=Event.key)

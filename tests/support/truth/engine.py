@@ -6,10 +6,12 @@ from dataclasses import dataclass, field, replace
 from mpmath import mp, mpf
 from support.truth.contacts import Cluster, make_cluster, resolve, touching
 from support.truth.detect import Octagon, boundary_of, own_event, pair_contact
+from support.truth.flight import fall
 from support.truth.laws import bounce, historical_collision
-from support.truth.model import Ball, Motion, World
+from support.truth.model import OUT_OF_PLAY, Ball, Motion, World, real
 from support.truth.moments import Event
 from support.truth.motion import advance, classify, end_of_motion
+from support.truth.rails import Rails
 from support.truth.strike import Stroke, strike
 
 
@@ -40,7 +42,7 @@ class Shot:
         self.predict(self.balls)
 
     def on_table(self) -> list[Ball]:
-        return [ball for ball in self.balls.values() if ball.motion is not Motion.POCKETED]
+        return [ball for ball in self.balls.values() if ball.motion not in OUT_OF_PLAY]
 
     def predict(self, numbers: Iterable[int]) -> None:
         """Renew what is known about the future of these balls."""
@@ -50,7 +52,7 @@ class Shot:
         for i, one in self.balls.items():
             for j, two in self.balls.items():
                 if i < j and (i in changed or j in changed):
-                    here = Motion.POCKETED not in (one.motion, two.motion)
+                    here = one.motion not in OUT_OF_PLAY and two.motion not in OUT_OF_PLAY
                     self.pairs[i, j] = pair_contact(self.world, one, two, self.time) if here else None
 
     def next_event(self) -> Event | None:
@@ -93,6 +95,12 @@ class Shot:
             advance(self.world, self.balls[i], self.time)
         if event.kind == "pocket_collision":
             self.pocket(event)
+        elif event.kind == "off_table":
+            self.drive_off(event.ball)
+        elif event.kind == "rail_top":
+            self.fall_on_rail(event)
+        elif event.kind == "transition" and self.balls[event.ball].motion is Motion.FLYING:
+            self.land(event)
         elif event.kind == "transition":
             name = end_of_motion(self.world, self.balls[event.ball])
             self.record(name, event.ball, -1, involved)
@@ -113,6 +121,33 @@ class Shot:
         self.balls[event.ball].motion = Motion.POCKETED
         self.record(event.kind, event.ball, event.other, [event.ball])
         self.predict([event.ball])
+
+    def drive_off(self, number: int) -> None:
+        self.balls[number].motion = Motion.DRIVEN_OFF
+        self.record("off_table", number, -1, [number])
+        self.predict([number])
+
+    def fall_on_rail(self, event: Event) -> None:
+        number, world = event.ball, real(self.world)
+        ball = self.balls[number]
+        ball.height = world.nose_height
+        fall(world, ball, world.e_rail, world.mu_rail)
+        if ball.rise == 0:
+            self.drive_off(number)
+            return
+        self.record("rail_top", number, event.other, [number])
+        self.predict([number])
+
+    def land(self, event: Event) -> None:
+        """The flight ends: in a hole, or on the cloth and whatever is touched there."""
+        ball = self.balls[event.ball]
+        ball.height = mpf(0)
+        assert isinstance(self.boundary, Rails)
+        pocket = self.boundary.air.over_hole(ball.position)
+        if pocket is not None:
+            self.pocket(Event(event.time, "pocket_collision", event.ball, pocket))
+        else:
+            self.settle_contacts([event.ball], None)
 
     def historical(self, event: Event, involved: list[int]) -> None:
         if event.kind == "ball_collision":

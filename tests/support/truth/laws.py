@@ -1,18 +1,19 @@
 """What one collision does: two balls, a cushion; the consistent set and the historical one (PHYSICS "Collisions")."""
 
 from mpmath import exp, mpc, mpf
+from support.truth.air import Edge, part_from, rebound
 from support.truth.cushions import han, mathavan
-from support.truth.model import Ball, RealWorld, World, dot, unit
+from support.truth.flight import air_friction
+from support.truth.model import Ball, RealWorld, World, dot, real, unit
 from support.truth.motion import classify
 from support.truth.octagon import Line
 from support.truth.rails import Wall
-
-Space = tuple[mpc, mpf]
-"""A vector in space: plane part, vertical part."""
+from support.truth.space import Space, cross
 
 
-def normal(one: Ball, two: Ball) -> mpc:
-    return unit(two.position - one.position)
+def in_air(one: Ball, two: Ball) -> bool:
+    """Whether a pair keeps its vertical part: one of them is off the cloth."""
+    return one.height > 0 or two.height > 0
 
 
 def cross_n(n: mpc, s: Space) -> Space:
@@ -38,8 +39,11 @@ def ball_friction(world: World, slip: mpf) -> mpf:
     return world.mu_ball
 
 
-def tangential_impulse(world: World, one: Ball, two: Ball, n: mpc, j_normal: mpf, shared: int) -> Space:
+def tangential_impulse(world: World, one: Ball, two: Ball, direction: Space, j_normal: mpf, shared: int) -> Space:
     """Friction on ball 1 per mass: against the slip, min(mu J_n, |slip| / (7 shared))."""
+    if in_air(one, two):
+        return air_friction(world, (one, two), direction, j_normal, shared, lambda slip: ball_friction(world, slip))
+    n = direction[0]
     plane, vertical = contact_slip(world, one, two, n)
     tangent = (plane - dot(plane, n) * n, vertical)
     size = length(tangent)
@@ -49,18 +53,24 @@ def tangential_impulse(world: World, one: Ball, two: Ball, n: mpc, j_normal: mpf
     return tangent[0] * scale, tangent[1] * scale
 
 
-def apply_friction(world: World, one: Ball, two: Ball, n: mpc, impulse: Space) -> None:
-    """Opposite impulses, spins changed in the same sense; the vertical velocity is absorbed by the cloth."""
+def apply_friction(world: World, one: Ball, two: Ball, direction: Space, impulse: Space) -> None:
+    """Opposite impulses, spins changed in the same sense; on the cloth the vertical velocity is absorbed."""
     one.velocity += impulse[0]
     two.velocity -= impulse[0]
-    plane, vertical = cross_n(n, impulse)
+    if in_air(one, two):
+        one.rise += impulse[1]
+        two.rise -= impulse[1]
+    plane, vertical = cross(direction, impulse)
     for ball in (one, two):
         ball.w_xy += 5 / (2 * world.radius) * plane
         ball.w_z += 5 / (2 * world.radius) * vertical
 
 
-def bounce(world: World, ball: Ball, line: Line | Wall) -> None:
+def bounce(world: World, ball: Ball, line: Line | Wall | Edge) -> None:
     """A cushion, by its law; ``factors``: parallel 0.9, perpendicular -0.6, all spin x 0.1."""
+    if isinstance(line, Edge):
+        rebound(real(world), ball, line, ball.since)
+        return
     if isinstance(world, RealWorld) and world.cushion != "factors":
         {"han": han, "mathavan": mathavan}[world.cushion](world, ball, line.inward)
         return
@@ -71,8 +81,11 @@ def bounce(world: World, ball: Ball, line: Line | Wall) -> None:
     ball.w_z *= world.cushion_spin
 
 
-def settle(ball: Ball, line: Line | Wall) -> None:
-    """A cushion reached too slowly to bounce: no velocity across it, no spin component along it."""
+def settle(world: World, ball: Ball, line: Line | Wall | Edge) -> None:
+    """A cushion reached too slowly to bounce: no velocity across it, no spin component along it; in the air parted."""
+    if isinstance(line, Edge):
+        part_from(real(world), ball, line, mpf("1.0625"))
+        return
     along = 1j * line.inward
     ball.velocity -= dot(ball.velocity, line.inward) * line.inward
     ball.w_xy -= dot(ball.w_xy, along) * along
@@ -82,7 +95,7 @@ def historical_collision(world: World, one: Ball, two: Ball) -> None:
     """FastFiz 0.2, its faults included."""
     if abs(one.velocity) < world.slip_zero:
         one, two = two, one
-    n = normal(one, two)
+    n = unit(two.position - one.position)
     both_move = abs(two.velocity) > world.slip_zero
     b_plane, b_vertical = contact_slip(world, one, two, n)
     v1n, v2n = dot(one.velocity, n), dot(two.velocity, n)

@@ -17,15 +17,21 @@ class Motion(Enum):
     SPINNING = "spinning"
     SLIDING = "sliding"
     ROLLING = "rolling"
+    FLYING = "flying"
     POCKETED = "pocketed"
+    DRIVEN_OFF = "driven off"
 
 
-MOVING = (Motion.SLIDING, Motion.ROLLING)
+MOVING = (Motion.SLIDING, Motion.ROLLING, Motion.FLYING)
+OUT_OF_PLAY = (Motion.POCKETED, Motion.DRIVEN_OFF)
 
 
 @dataclass
 class Ball:
-    """A ball at time ``since``: position m, velocity m/s, angular velocity rad/s as ``w_xy`` (plane) and ``w_z``."""
+    """A ball at time ``since``: position m, velocity m/s, angular velocity rad/s as ``w_xy`` (plane) and ``w_z``.
+
+    ``height`` m of the centre above where it rests, ``rise`` m/s upwards; ``pressed`` s: until then a nose holds it.
+    """
 
     number: int
     position: mpc
@@ -34,6 +40,9 @@ class Ball:
     w_z: mpf = field(default_factory=lambda: mpf(0))
     motion: Motion = Motion.STATIONARY
     since: mpf = field(default_factory=lambda: mpf(0))
+    height: mpf = field(default_factory=lambda: mpf(0))
+    rise: mpf = field(default_factory=lambda: mpf(0))
+    pressed: mpf = field(default_factory=lambda: -mp.inf)
 
     def copy(self) -> "Ball":
         return Ball(*(getattr(self, f.name) for f in fields(self)))
@@ -106,11 +115,27 @@ class RealWorld(World):
     e_cushion: float = 0.85
     mu_cushion: float = 0.2
     ball: str = "alciatore"
+    flight: bool = False
+    e_cloth: float = 0.5
+    e_strike: float = 0.5
+    e_pressed: float = 0.0
+    e_rail: float = 0.5
+    mu_rail: float = 0.2
+    rail_width: float = 0.1397
+    lift: float = 0.05
+    press_time: float = 5e-3
+    rail_cap: float = 0.0406
 
     @property
     def rho(self) -> mpf:
         """How near a nose's line the centre comes, in plan: its nose is h - R above the centre."""
         return mp.sqrt(self.radius**2 - (self.nose_height - self.radius) ** 2)
+
+
+def real(world: World) -> RealWorld:
+    """The world of a ball in the air: only tables with jaws fly."""
+    assert isinstance(world, RealWorld)
+    return world
 
 
 def dot(a: mpc, b: mpc) -> mpf:
@@ -129,4 +154,4 @@ def slip(world: World, ball: Ball) -> mpc:
 def energy(world: World, ball: Ball) -> mpf:
     """Kinetic energy per mass: v^2/2 + (2/5 R^2) w^2/2."""
     spin2 = dot(ball.w_xy, ball.w_xy) + ball.w_z**2
-    return (dot(ball.velocity, ball.velocity) + mpf(2) / 5 * world.radius**2 * spin2) / 2
+    return (dot(ball.velocity, ball.velocity) + ball.rise**2 + mpf(2) / 5 * world.radius**2 * spin2) / 2

@@ -14,7 +14,7 @@ from support.truth.motion import acceleration, lifetime
 CLEAR = 1e-7
 """Margin of the float filter (m for lines, m^2 for squared distances): a million times its rounding."""
 
-ORDER = ("ball_collision", "rail_collision", "jaw_collision", "pocket_collision", "transition")
+ORDER = ("ball_collision", "rail_collision", "jaw_collision", "pocket_collision", "rail_top", "off_table", "transition")
 
 
 @dataclass(frozen=True)

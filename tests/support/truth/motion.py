@@ -1,7 +1,8 @@
 """Motion between events in closed form [I], and what a ball becomes when its motion ends."""
 
 from mpmath import mp, mpc, mpf
-from support.truth.model import Ball, Motion, World, slip, unit
+from support.truth.flight import fall_time, fly, is_airborne
+from support.truth.model import OUT_OF_PLAY, Ball, Motion, World, slip, unit
 
 
 def acceleration(world: World, ball: Ball) -> mpc:
@@ -24,6 +25,8 @@ def lifetime(world: World, ball: Ball) -> mpf:
         return 2 * abs(slip(world, ball)) / (7 * world.mu_slide * world.gravity)
     if ball.motion is Motion.ROLLING:
         return abs(ball.velocity) / (world.mu_roll * world.gravity)
+    if ball.motion is Motion.FLYING:
+        return fall_time(world, ball)
     if ball.motion is Motion.SPINNING:
         return abs(ball.w_z) / spin_decay(world, ball)
     return mp.inf
@@ -33,7 +36,10 @@ def advance(world: World, ball: Ball, time: mpf) -> None:
     """Move the ball to ``time`` within its motion state."""
     t = time - ball.since
     ball.since = time
-    if ball.motion in (Motion.STATIONARY, Motion.POCKETED):
+    if ball.motion in (Motion.STATIONARY, *OUT_OF_PLAY):
+        return
+    if ball.motion is Motion.FLYING:
+        fly(world, ball, t)
         return
     a = acceleration(world, ball)
     if ball.motion is Motion.SLIDING:
@@ -50,7 +56,9 @@ def classify(world: World, ball: Ball) -> None:
     """The motion state that follows from velocity and spin."""
     moving = abs(ball.velocity) > world.slip_zero
     sliding = abs(slip(world, ball)) > world.slip_zero
-    if sliding and (moving or not world.historical):
+    if is_airborne(ball):
+        ball.motion = Motion.FLYING
+    elif sliding and (moving or not world.historical):
         ball.motion = Motion.SLIDING
     elif moving:
         ball.motion = Motion.ROLLING

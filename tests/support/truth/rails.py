@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mpmath import cos, mp, mpc, mpf, radians, sin, sqrt, tan
-from support.truth.model import MOVING, Ball, RealWorld, dot, unit
+from support.truth.air import Air, Edge
+from support.truth.model import Ball, Motion, RealWorld, dot, unit
 from support.truth.moments import Event, deflated, may_reach, moving_until, path, stays_clear
 from support.truth.octagon import EAST, NORTH, SOUTH, WEST
 from support.truth.roots import first_fall
@@ -66,11 +67,18 @@ class Hole:
 
 @dataclass(frozen=True)
 class Jaw:
-    """``nose_end``: where the straight nose ends."""
+    """``nose_end``: where the straight nose ends; ``away`` from the mouth along it, ``inward`` off its line."""
 
     nose_end: mpc
     horn: Horn
     facing: Strip
+    away: mpc
+    inward: mpc
+
+    @property
+    def nose(self) -> Strip:
+        """Its nose line, as far as it matters here."""
+        return Strip(self.nose_end, self.nose_end + self.away, self.inward, -1)
 
 
 def jaw_of(world: RealWorld, number: int, corner: mpc, away: mpc, inward: mpc) -> Jaw:
@@ -84,7 +92,7 @@ def jaw_of(world: RealWorld, number: int, corner: mpc, away: mpc, inward: mpc) -
     nose_end = tip + away * tangent
     horn = Horn(nose_end - inward * world.horn_radius, world.horn_radius, 4 + number)
     facing = Strip(tip + into * tangent, tip + into * (world.cushion_width / sin(delta)), normal, 4 + number)
-    return Jaw(nose_end, horn, facing)
+    return Jaw(nose_end, horn, facing, away, inward)
 
 
 def jaws(world: RealWorld) -> list[Jaw]:
@@ -127,10 +135,14 @@ class Rails:
         self.strips = [*noses, *(jaw.facing for jaw in all_jaws)]
         self.horns = [jaw.horn for jaw in all_jaws]
         self.holes = holes(world)
+        self.jaws = all_jaws
+        self.air = Air(world, self)
 
     def meets(self, ball: Ball, time: mpf) -> Iterator[Event]:
         """Each piece's first contact with the ball from ``time`` on."""
-        if ball.motion not in MOVING:
+        if ball.motion is Motion.FLYING:
+            yield from self.air.meets(ball, time)
+        if ball.motion not in (Motion.SLIDING, Motion.ROLLING):
             return
         way, span = path(self.world, ball, time), moving_until(self.world, ball) - time
         for strip in self.strips:
@@ -171,8 +183,11 @@ class Rails:
             quartic = deflated(quartic, dot(b, c) / abs(c), self.world)
         return first_fall(quartic, span)
 
-    def touched(self, ball: Ball) -> Iterator[Wall]:
+    def touched(self, ball: Ball) -> Iterator[Wall | Edge]:
         """The piece within ``touch`` of the ball's centre: at most one."""
+        if ball.motion is Motion.FLYING:
+            yield from self.air.touched(ball)
+            return
         place, near = ball.position, self.world.rho + self.world.touch
         for strip in self.strips:
             if strip.is_beside(place) and abs(strip.gap(place)) <= near:

@@ -76,12 +76,16 @@ def real_roots(p: Polynomial, low: mpf, high: mpf) -> list[mpf]:
     return found
 
 
-def first_fall(p: Polynomial, t_max: mpf) -> mpf | None:
-    """The earliest t in [0, t_max] at which ``p`` goes from >= 0 to < 0, or None."""
+def falls(p: Polynomial, t_max: mpf) -> Iterator[mpf]:
+    """Every t in [0, t_max] at which ``p`` goes from >= 0 to < 0, ascending."""
     p = trimmed(p)
     if len(p) < 2:
-        return None
+        return
     for left, right in monotone_pieces(p, mpf(0), t_max):
         if value(p, right) < 0 <= value(p, left):
-            return left if value(p, left) == 0 else bracketed_root(p, left, right)
-    return None
+            yield left if value(p, left) == 0 else bracketed_root(p, left, right)
+
+
+def first_fall(p: Polynomial, t_max: mpf) -> mpf | None:
+    """The earliest of them, or None."""
+    return next(falls(p, t_max), None)

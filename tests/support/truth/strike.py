@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from mpmath import mp, mpc, mpf
+from support.truth.flight import leave_cloth
 from support.truth.model import Ball, RealWorld, World
 from support.truth.motion import classify
 from support.truth.squirt import struck_exactly
@@ -43,11 +44,14 @@ def strike(world: World, ball: Ball, stroke: Stroke) -> None:
 
 
 def strike_with_end_mass(world: RealWorld, ball: Ball, stroke: Stroke) -> None:
-    """Squirt and miscue; the vertical part is absorbed by the cloth."""
-    (x, y, _), (p, q, r), _ = struck_exactly(
+    """Squirt and miscue; the vertical part is absorbed by the cloth, or answered by it where balls fly."""
+    (x, y, z), (p, q, r), _ = struck_exactly(
         *(world.radius, mpf(stroke.phi), mpf(stroke.theta), mpf(stroke.a) / 1000, mpf(stroke.b) / 1000),
         *(world.ball_mass / world.cue_mass, world.cue_end_mass / world.ball_mass, world.e_tip, world.mu_tip),
         mpf(stroke.v),
     )
     ball.velocity, ball.w_xy, ball.w_z = mpc(x, y), mpc(p, q), r
+    if world.flight:
+        ball.rise = z
+        leave_cloth(world, ball)
     classify(world, ball)
