@@ -31,6 +31,8 @@ BENCHMARKS = {
     "search_breaks": "the study behind the break of `search`: random breaks, halved again and again",
     "tournaments": "events of in-process agents: games per second, in one process and with one and two workers",
     "load": "shots a second over HTTP with 1, 10, 100 and 500 games at once, next to a bare endpoint",
+    "growth": "lists, strokes and a start in a database of 10^5 finished games, beside a new one",
+    "spectators": "what a stroke costs the server when 100 watch the game",
     "soak": "thousands of games through the SDK and HTTP: time-outs that nothing explains, and their upper bound",
 }
 """Module in this package to one line about it."""

@@ -47,14 +47,14 @@ async def compare(games: int, seconds: float) -> list[Row]:
         with serving("server", "--database", f"sqlite:///{database}") as port:
             await ready(port)
             played = await play(port, games, seconds)
-        size = stored_bytes(database) // max(1, played.shots)
+        size, kept = (total // max(1, played.shots) for total in stored_bytes(database))
     answer, request = int(np.mean(played.answered)), int(np.mean(played.sent))
     with tempfile.TemporaryDirectory() as folder:
         options = ("--answer", str(answer), "--store", str(size), "--database", f"{folder}/bare.db")
         with serving("benchmarks.bare_endpoint", *options) as port:
             bare = await hammer(port, games, seconds, request)
     shares = {"of_bare": played.rate / bare.rate}
-    sizes = {"answer_bytes": answer, "stored_bytes": size}
+    sizes = {"answer_bytes": answer, "stored_bytes": size, "kept_bytes": kept}
     return [played.row("server", games) | shares | sizes, bare.row("bare endpoint", games) | {"of_bare": 1.0} | sizes]
 
 
@@ -193,7 +193,8 @@ def serving(module: str, *options: str) -> Iterator[int]:
     """A server as a process; its port."""
     limits = dict.fromkeys(("TOKEN_RATE", "TOKEN_BURST", "ADDRESS_RATE", "ADDRESS_BURST"), "1e9")
     environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER}
-    environment |= {f"POOLIAD_{name}": value for name, value in limits.items()} | {"POOLIAD_LOG_LEVEL": "warning"}
+    environment |= {f"POOLIAD_{name}": value for name, value in limits.items()}
+    environment |= {"POOLIAD_LOG_LEVEL": "warning", "POOLIAD_STREAMS": "1000"}
     command = [sys.executable, "-m", module, "--port", "0", *options]
     with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as process:
         try:
@@ -210,19 +211,31 @@ async def ready(port: int) -> None:
             await asyncio.sleep(0.1)
 
 
-def stored_bytes(database: Path) -> int:
-    """What the shots left in the database: the file with its log folded in."""
+def stored_bytes(database: Path) -> tuple[int, int]:
+    """Bytes that the shots wrote, their games' rows and answers among them; and those of the file that stay for good.
+
+    The second are measured: answers are deleted, as they are when nobody can ask for them again, and the file is made
+    smaller.
+    """
     import sqlite3
 
     with contextlib.closing(sqlite3.connect(database)) as connection:
-        columns = {"moves": ("stroke", "line"), "answers": ("body", "headers", "route", "key", "request_digest")}
-        total = 0
+        columns = {
+            "moves": ("stroke", "line", "packed"),
+            "answers": ("body", "headers", "route", "key", "request_digest"),
+        }
+        written = 0
         for table, names in columns.items():
             for name in names:
-                total += connection.execute(f"SELECT coalesce(sum(length({name})), 0) FROM {table}").fetchone()[0]
+                written += connection.execute(f"SELECT coalesce(sum(length({name})), 0) FROM {table}").fetchone()[0]
         state = connection.execute("SELECT avg(length(state)) FROM games").fetchone()[0]
         moves = connection.execute("SELECT count(*) FROM moves").fetchone()[0]
-        return int(total + state * moves)
+        connection.execute("DELETE FROM answers")
+        connection.commit()
+        connection.execute("VACUUM")
+        (page_size,) = connection.execute("PRAGMA page_size").fetchone()
+        (pages,) = connection.execute("PRAGMA page_count").fetchone()
+        return int(written + state * moves), page_size * pages
 
 
 if __name__ == "__main__":

@@ -138,7 +138,7 @@ class TurnLoop:
             return None
         shots = session.undeclared
         try:
-            answer = self._server.play(view.game, view.version, action, simulated=shots)
+            answer = self._server.act(view.game, view.version, action, simulated=shots)
         except (Unprocessable, BudgetSpent, ValidationError) as error:
             session.refused(str(error))
             self._sessions.failed(view, error)

@@ -25,6 +25,17 @@ class StrokeAnswer(Message):
     clocks: tuple[ClockView, ClockView]
 
 
+class MinimalAnswer(Message):
+    """The answer to an action that was sent with ``Prefer: return=minimal`` (RFC 7240).
+
+    Attributes:
+        view: the game as the caller sees it now, its strokes the last of the caller's and what followed.
+    """
+
+    game: Identifier
+    view: View
+
+
 class ShotsPage(Message):
     """``GET /v1/games/{id}/shots``: strokes in order.
 

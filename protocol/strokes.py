@@ -1,10 +1,11 @@
 """Strokes and decisions of the past, as answers, views and histories show them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Self, TypeVar
 
 from pydantic import Field
 
+from physics.events import EventKind
 from protocol.outcomes import EventView, Pocketed, RulingView
 from protocol.shots import ShotParameters, SubmittedAction
 from protocol.values import Balls, Flag, Integer, Message, Number, Seat, trusted
@@ -44,6 +45,11 @@ class StrokeView(Message):
         """The wire's form of the ``index``-th entry of a game's history."""
         return trusted(cls, **_summary(stroke, index))
 
+    @classmethod
+    def of_entry(cls, entry: Mapping[str, Any]) -> Self:
+        """The same from the object of its line in a record (``referee.record.stroke_entry``)."""
+        return cls.model_validate(_recorded(entry))
+
 
 class StrokeDetail(StrokeView):
     """A stroke with its events.
@@ -71,6 +77,12 @@ class StrokeDetail(StrokeView):
             }
         return cls.model_validate(_summary(stroke, index) | details)
 
+    @classmethod
+    def of_entry(cls, entry: Mapping[str, Any]) -> Self:
+        """The same from the object of its line in a record (``referee.record.stroke_entry``)."""
+        details = {"before": _by_number(entry.get("before")), "final": _by_number(entry.get("final"))}
+        return cls.model_validate(_recorded(entry) | details | {"events": entry.get("events", ())})
+
 
 Played = TypeVar("Played", Stroke, StrokeView)
 
@@ -81,6 +93,29 @@ def since_own_last(strokes: Sequence[Played], seat: int | None) -> tuple[Played,
         return tuple(strokes[-1:])
     own = (place for place in range(len(strokes) - 1, -1, -1) if strokes[place].seat == seat)
     return tuple(strokes[next(own, 0) :])
+
+
+def _recorded(entry: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of `_summary`, from the object of a record's line."""
+    fallen = (event for event in entry.get("events", ()) if event["kind"] == EventKind.POCKET_COLLISION)
+    return {
+        "index": entry["entry"],
+        "stroke": entry["stroke"],
+        "seat": entry["seat"],
+        "action": entry["action"],
+        "shot": entry.get("shot"),
+        "status": entry.get("status"),
+        "duration": entry.get("duration"),
+        "pocketed": [{"ball": event["ball"], "pocket": event["other"]} for event in fallen],
+        "miscue": entry.get("miscue", False),
+        "ruling": entry["ruling"],
+        "balls": _by_number(entry["game"]["state"]),
+    }
+
+
+def _by_number(balls: Mapping[str, Any] | None) -> dict[str, Any] | None:
+    """A record's names are in the order of letters, 10 before 2."""
+    return None if balls is None else {ball: balls[ball] for ball in sorted(balls, key=int)}
 
 
 def _summary(stroke: Stroke, index: int) -> dict[str, Any]:

@@ -6,8 +6,8 @@ import numpy as np
 from gymnasium.spaces import Box, Space
 from pettingzoo import AECEnv
 
-from client import notation
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector
+from client.learn.frames import rendered
 from client.learn.games import OneGame, referee_of
 from physics import Table
 from referee import Game, NoiseModel
@@ -22,13 +22,17 @@ class EightBallAEC(AECEnv[str, Vector, Vector | None]):
         noise: level, 0 to 5; 1 is the Olympiad's.
         table: the Olympiad's unless given.
         start: where every game begins instead of a break.
-        render_mode: `ansi` or None.
+        render_mode: `ansi`; `rgb_array`, which needs the extra `pictures`; or None.
 
     Raises:
         ValueError: a level of noise, a start or a render mode that is none.
     """
 
-    metadata: dict[str, Any] = {"name": "eight_ball_v0", "render_modes": ["ansi"], "is_parallelizable": False}  # noqa: RUF012
+    metadata: dict[str, Any] = {  # noqa: RUF012
+        "name": "eight_ball_v0",
+        "render_modes": ["ansi", "rgb_array"],
+        "is_parallelizable": False,
+    }
 
     def __init__(
         self,
@@ -38,8 +42,8 @@ class EightBallAEC(AECEnv[str, Vector, Vector | None]):
         render_mode: str | None = None,
     ) -> None:
         super().__init__()
-        if render_mode not in (None, "ansi"):
-            raise ValueError(f"render_mode is {render_mode!r}; it must be 'ansi' or None")
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise ValueError(f"render_mode = {render_mode!r}: must be 'ansi', 'rgb_array' or None")
         self._rules, self._noise = referee_of(table), NoiseModel(noise)
         self._start = None if start is None else self._rules.begin_from(start)
         self._chance = np.random.default_rng()
@@ -88,9 +92,9 @@ class EightBallAEC(AECEnv[str, Vector, Vector | None]):
         self.agent_selection = SEATS[self._games.turn]
         self._accumulate_rewards()
 
-    def render(self) -> str | None:
-        """The position in one line, in mode `ansi`."""
-        return notation.write(self._games.game().state) if self.render_mode == "ansi" else None
+    def render(self) -> Any:
+        """The position: in one line in mode `ansi`, as pixels (h, w, 3) uint8 in mode `rgb_array`."""
+        return rendered(self.render_mode, self._games.game().state, self._rules.table)
 
     def close(self) -> None:
         """Nothing is held."""

@@ -7,6 +7,7 @@ Every vector in [-1, 1]^8 is a legal action: elevations count from the least tha
 way to the nearest free one, calls and decisions are chosen among those that are open.
 """
 
+import math
 from collections.abc import Sequence
 from typing import Final
 
@@ -14,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from client.geometry import are_free, lattice
-from physics import Table
+from physics import Table, TableState
 from physics.constants import N_BALLS, N_POCKETS
-from physics.cue import are_playable, min_elevations
-from referee import Action, CueBallArea, Decision, Game, Group, Phase
+from physics.cue import are_playable, min_elevation, min_elevations
+from referee import Action, Call, CueBallArea, Decision, Game, Group, Phase
 from referee.play.batch import Strokes, groups_of_shooters
 from referee.rules.batch_rulings import SAFETY_CALL, target_balls
 
@@ -25,8 +26,17 @@ Vector = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-ACTION_SIZE: Final = 8
-"""Speed, direction, elevation, side, height, place x, place y, choice."""
+ACTION_NAMES: Final = ("speed", "direction", "elevation", "side", "height", "place_x", "place_y", "choice")
+"""The numbers of an action, in order, each in [-1, 1] as a share of:
+
+- `speed`: 0 to the table's `v_max`;
+- `direction`: `phi` from 0 to 360 degrees, a blocked one turned on in steps of 5 degrees;
+- `elevation`: the square of the share, from the least elevation that is free to the table's `theta_max`;
+- `side`, `height`: the tip's `a` and `b`, from -`OFFSET` to `OFFSET` mm;
+- `place_x`, `place_y`: where a cue ball in hand goes, over the table or the kitchen; else ignored;
+- `choice`: the call (each ball that may be called into each pocket, at the end a safety), or the decision.
+"""
+ACTION_SIZE: Final = len(ACTION_NAMES)
 DECISIONS: Final = tuple(each for each in Decision if each is not Decision.CONCEDE)
 PHASES: Final = (Phase.BREAK, Phase.PLAY, Phase.DECISION)
 AREAS: Final = (None, CueBallArea.KITCHEN, CueBallArea.ANYWHERE)
@@ -108,6 +118,58 @@ def strokes(table: Table, games: Sequence[Game], vectors: NDArray[np.floating]) 
     _place_cue_balls(table, games, before, shares)
     ball, pocket = _calls(games, before, shares[:, CHOICE])
     return Strokes(games, before, _shots(table, before, shares), ball, pocket)
+
+
+def encode(table: Table, game: Game, action: Action) -> Vector:
+    """The vector that `act` reads as this action, to the precision of float32: what a policy that imitates is shown.
+
+    Raises:
+        ValueError: a concession, or a tip offset beyond `OFFSET`: no vector stands for it.
+    """
+    shares = np.full(ACTION_SIZE, 0.5)
+    if action.decision is not None:
+        if action.decision not in (game.decisions or ()):
+            raise ValueError(f"decision = {action.decision}: must be one of {game.decisions}, no vector is another")
+        shares[CHOICE] = (game.decisions.index(action.decision) + 0.5) / len(game.decisions)
+        return _vector(shares)
+    shot, state = action.shot, game.state
+    assert shot is not None
+    if action.cue_ball is not None:
+        state = state.moved(0, action.cue_ball)
+        shares[[PLACE_X, PLACE_Y]] = _place_shares(table, game, action.cue_ball)
+    for field, offset in (("a", shot.a), ("b", shot.b)):
+        if abs(offset) > OFFSET:
+            raise ValueError(f"{field} = {offset}: must be from -{OFFSET:g} to {OFFSET:g} mm")
+    shares[[SPEED, DIRECTION]] = shot.v / table.v_max, shot.phi % 360.0 / 360.0
+    shares[[SIDE, HEIGHT]] = 0.5 * (shot.a / OFFSET + 1.0), 0.5 * (shot.b / OFFSET + 1.0)
+    least = min_elevation(table, state, shot.phi, shot.a, shot.b)
+    if shot.theta > least:  # no number where the cue is blocked at any: `act` turns such a stroke
+        shares[ELEVATION] = math.sqrt((shot.theta - least) / (table.theta_max - least))
+    else:
+        shares[ELEVATION] = 0.0
+    shares[CHOICE] = _call_share(game, state, action)
+    return _vector(shares)
+
+
+def _vector(shares: Floats) -> Vector:
+    return (2.0 * shares - 1.0).astype(np.float32)
+
+
+def _place_shares(table: Table, game: Game, place: tuple[float, float]) -> tuple[float, float]:
+    """The inverse of what `_place_cue_balls` does with them."""
+    radius = table.ball_radius
+    low = table.head_string if game.cue_ball_in_hand is CueBallArea.KITCHEN else radius
+    return (place[0] - radius) / (table.width - 2.0 * radius), (place[1] - low) / (table.length - radius - low)
+
+
+def _call_share(game: Game, state: TableState, action: Action) -> float:
+    """The middle of the stretch that `_calls` reads as the action's call."""
+    if not isinstance(action.call, Call):
+        return 1.0
+    balls = np.flatnonzero(target_balls(state.positions[None], groups_of_shooters([game]))[0]).tolist()
+    number = balls.index(action.call.ball) * N_POCKETS + action.call.pocket
+    share: float = (number + 0.5) / (len(balls) * N_POCKETS + 1)
+    return share
 
 
 def _shares(vectors: NDArray[np.floating], count: int) -> Floats:

@@ -1,5 +1,7 @@
 """Many games as arrays: looked at, played and begun anew by the compiled step."""
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -68,6 +70,19 @@ class Games:
         winner = self.state[:, to.WINNER]
         won: Floats = np.where(winner == to.NOBODY, 0.0, np.where(winner == seats, 1.0, -1.0))
         return won
+
+    def leads(self, seats: Integers) -> Floats:
+        """(count,): how many more balls of the other group than of the seat's are left, of 7; 0 on an open table.
+
+        Also 0 once the game is over: as a potential it then adds nothing to what an episode pays (`shaping`).
+        """
+        left = ~np.isnan(self.places[:, :, 0])
+        solids, stripes = left[:, 1:8].sum(axis=1), left[:, 9:].sum(axis=1)
+        group = self.state[:, to.GROUP]
+        known = (group != to.OPEN) & (self.state[:, to.PHASE] != to.OVER)
+        has_solids = (group == 0) == (seats == 0)
+        lead: Floats = np.where(known, np.where(has_solids, stripes - solids, solids - stripes) / 7.0, 0.0)
+        return lead
 
     def observed(self, rows: Integers, seats: Integers) -> Vector:
         """`codec.observe` of these games by these seats, (m, OBSERVATION_SIZE)."""
@@ -204,6 +219,10 @@ class OneGame:
         """See `Games.rewards`."""
         return float(self._games.rewards(np.array([seat]))[0])
 
+    def lead(self, seat: int) -> float:
+        """See `Games.leads`."""
+        return float(self._games.leads(np.array([seat]))[0])
+
     def game(self) -> Game:
         """As the referee knows it."""
         return self._games.game(0)
@@ -230,6 +249,13 @@ class OneGame:
 
 
 _ONLY = np.zeros(1, np.int64)
+
+
+def checked_shaping(shaping: float) -> float:
+    """The weight of a step's gain; raises ValueError unless it is a number from 0 on."""
+    if isinstance(shaping, bool) or not isinstance(shaping, int | float) or not 0.0 <= shaping < math.inf:
+        raise ValueError(f"shaping = {shaping!r}: must be a number from 0 on")
+    return float(shaping)
 
 
 def referee_of(table: Table | None) -> EightBall:

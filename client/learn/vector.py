@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Integers, Vector
 from client.learn.compiled import layout as to
-from client.learn.games import Games, referee_of
+from client.learn.games import Games, checked_shaping, referee_of
 from physics import Table
 from referee import Game, NoiseModel
 
@@ -27,7 +27,7 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
     Args:
         num_envs: how many.
         opponent: a policy over many observations at once; draws its actions at random unless given.
-        noise, table, start: as for `EightBallAEC`. threads: of the physics.
+        noise, table, start: as for `EightBallAEC`. threads: of the physics. shaping: as for `EightBallEnv`.
     """
 
     metadata: dict[str, Any] = {"autoreset_mode": AutoresetMode.NEXT_STEP}  # noqa: RUF012
@@ -40,10 +40,11 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         table: Table | None = None,
         start: Game | None = None,
         threads: int = 1,
+        shaping: float = 0.0,
     ) -> None:
         if isinstance(num_envs, bool) or not isinstance(num_envs, int) or num_envs < 1:
             raise ValueError(f"num_envs is {num_envs!r}; it must be an integer of at least 1")
-        self.num_envs = num_envs
+        self.num_envs, self._shaping = num_envs, checked_shaping(shaping)
         self._rules, self._noise, self._threads = referee_of(table), NoiseModel(noise), threads
         self._start = None if start is None else self._rules.begin_from(start)
         self._opponent = opponent
@@ -59,6 +60,7 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         self._seats = np.zeros(self.num_envs, dtype=np.int64)
         self._games = Games(self._rules, self._noise, self.num_envs, self._threads, self._start)
         self._begin(self._all)
+        self._leads = self._games.leads(self._seats)
         return self._seen(), self._info()
 
     def step(self, actions: Vector) -> tuple[Vector, NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
@@ -77,6 +79,8 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         self._begin(begun)
         self._opponent_plays(going)
         rewards = self._games.rewards(self._seats)
+        before, self._leads = self._leads, self._games.leads(self._seats)
+        rewards[going] += self._shaping * (self._leads[going] - before[going])
         return self._seen(), rewards, self._games.over, np.zeros(self.num_envs, np.bool_), self._info()
 
     def _begin(self, waiting: Integers) -> None:

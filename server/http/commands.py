@@ -31,7 +31,8 @@ M = TypeVar("M", bound=BaseModel)
 class Command:
     """Who asks for what, how it is recognised when it comes again, and the body as it came.
 
-    `arrived` is when the last byte of the body was here, in the server's time.
+    `arrived` is when the last byte of the body was here, in the server's time. `minimal`: the answer need not repeat
+    what was done.
     """
 
     caller: Caller
@@ -41,6 +42,7 @@ class Command:
     content_type: str | None
     body: bytes
     arrived: int
+    minimal: bool = False
 
     @property
     def request_digest(self) -> str:

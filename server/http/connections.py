@@ -9,11 +9,12 @@ nor for answers that nobody reads, and no bound on one caller's share of the con
 import asyncio
 import sys
 from collections import Counter
+from functools import partial
 from http import HTTPStatus
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import h11
-from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 
 from server.settings import Settings
 
@@ -26,6 +27,9 @@ TOO_MANY = (
 )
 
 HEAD_TOO_LARGE = 431
+
+WRITE = "pooliad.write"
+"""The extension of a request's scope that writes part of its answer at once, if the reader has read all before it."""
 
 LEAST_READ = 64 * 1024
 """Bytes."""
@@ -114,6 +118,24 @@ class _Bounded(H11Protocol):
         for event in (head, h11.Data(data=text), h11.EndOfMessage()):
             self.transport.write(self.conn.send(event))
         self.transport.close()
+
+    def handle_events(self) -> None:
+        """Requests that came are begun on the loop's next round: until then their scope may be added to."""
+        super().handle_events()
+        if self.scope is not None:
+            extensions: Any = self.scope.setdefault("extensions", {})
+            extensions.setdefault(WRITE, partial(self._write_part, self.cycle))
+
+    def _write_part(self, cycle: RequestResponseCycle, part: bytes) -> bool:
+        """Write part of an answer of unknown length, framed as RFC 9112, 7.1 has it; False when it has to wait.
+
+        Between its parts such an answer leaves no trace in h11 but that there are more to come.
+        """
+        is_open = self.cycle is cycle and not cycle.disconnected and self.conn.our_state is h11.SEND_BODY
+        if not is_open or self.conn.their_http_version != b"1.1" or self.transport.get_write_buffer_size():
+            return False
+        self.transport.write(b"%x\r\n%b\r\n" % (len(part), part))
+        return True
 
     def pause_writing(self) -> None:
         """More is written than is being read."""

@@ -26,6 +26,7 @@ from server.errors import (
     UnsupportedMediaType,
 )
 from server.http.commands import LONGEST_KEY
+from server.http.preferences import MINIMAL
 from server.store import paging
 
 TOKEN_SCHEME = "token"
@@ -40,6 +41,8 @@ SEARCH: Final[dict[str, Any]] = {"pattern": f"^{paging.SEARCH}$"}
 NO_NUL: Final[dict[str, Any]] = {"pattern": "^[^\\u0000]*$"}
 KEY: Final[dict[str, Any]] = {"type": "string", "pattern": f"^[!-~]([ -~]{{0,{LONGEST_KEY - 2}}}[!-~])?$"}
 VERSION: Final[dict[str, Any]] = {"type": "string", "pattern": '^("[0-9]{1,15}"|[0-9]{1,15})$'}
+
+PREFER: Final[dict[str, Any]] = {"type": "string", "pattern": "^[ -~]{0,200}$"}
 
 EVENT_STREAM: Final = "text/event-stream"
 TEXT: Final[dict[str, Any]] = {"type": "string"}
@@ -61,6 +64,7 @@ def describe(
     key: bool = False,
     optional_key: bool = False,
     version: bool = False,
+    minimal: bool = False,
     limited: bool = True,
 ) -> Described:
     """Keyword arguments for a route.
@@ -73,7 +77,7 @@ def describe(
             framework.
         limited: whether it may be asked too often.
         token: whether it takes one; key: an Idempotency-Key, which optional_key says is not always needed;
-            version: If-Match.
+            version: If-Match; minimal: Prefer: return=minimal.
     """
     implied: list[type[ServerError]] = [Unauthorized] if token else []
     implied += [*BODY_PROBLEMS] if body else []
@@ -81,7 +85,7 @@ def describe(
     extra: dict[str, Any] = {"security": [{TOKEN_SCHEME: []}] if token else []}
     if body:
         extra["requestBody"] = _request_body(body) | {"required": not optional_body}
-    if headers := _headers(key, optional_key, version):
+    if headers := _headers(key, optional_key, version, minimal):
         extra["parameters"] = headers
     responses = {status: _success(answer) for status, answer in (success or {}).items()}
     described: Described = {
@@ -124,13 +128,16 @@ def _problems(*errors: type[ServerError]) -> dict[int | str, dict[str, Any]]:
     }
 
 
-def _headers(key: bool, optional_key: bool, version: bool) -> list[dict[str, Any]]:
+def _headers(key: bool, optional_key: bool, version: bool, minimal: bool) -> list[dict[str, Any]]:
     headers = []
     if key or optional_key:
         example = "6a1f0c52-7f0e-4d43-9c1b-5b2f3f0f7f11"
         headers.append(_header("Idempotency-Key", KEY, example, "a name of the request's own", required=key))
     if version:
         headers.append(_header("If-Match", VERSION, '"1"', "the version of the view that the request answers"))
+    if minimal:
+        words = "the answer need not repeat the stroke: its view has it (RFC 7240)"
+        headers.append(_header("Prefer", PREFER, MINIMAL, words, required=False))
     return headers
 
 

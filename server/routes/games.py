@@ -5,7 +5,16 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
-from protocol import ClockLedger, DecisionRequest, ForfeitRequest, GameAnswer, ShotRequest, ShotsPage, StrokeAnswer
+from protocol import (
+    ClockLedger,
+    DecisionRequest,
+    ForfeitRequest,
+    GameAnswer,
+    MinimalAnswer,
+    ShotRequest,
+    ShotsPage,
+    StrokeAnswer,
+)
 from server.errors import (
     BudgetSpent,
     GameFinished,
@@ -51,19 +60,39 @@ def game(game_id: str, context: ContextDep, reader: Reader) -> Response:
 
 @router.post(
     "/shots",
-    **describe(*ACTION_PROBLEMS, Refused, body=ShotRequest, success={200: StrokeAnswer}, key=True, version=True),
+    **describe(
+        *ACTION_PROBLEMS,
+        Refused,
+        body=ShotRequest,
+        success={200: StrokeAnswer | MinimalAnswer},
+        key=True,
+        version=True,
+        minimal=True,
+    ),
     dependencies=[InHand],
     summary="Play a stroke",
 )
 async def shoot(game_id: str, context: ContextDep, move: MoveDep) -> Response:
-    """The shot as played (with noise), its events, the ruling and the next view."""
+    """The shot as played (with noise), its events, the ruling and the next view.
+
+    With `Prefer: return=minimal` the view alone. A request that is sent again gets the answer that it got,
+    whatever it prefers then.
+    """
     play = partial(strokes.shoot, context, game_id, move)
     return respond(await context.long_strokes.play(game_id, play))
 
 
 @router.post(
     "/decisions",
-    **describe(*ACTION_PROBLEMS, Refused, body=DecisionRequest, success={200: StrokeAnswer}, key=True, version=True),
+    **describe(
+        *ACTION_PROBLEMS,
+        Refused,
+        body=DecisionRequest,
+        success={200: StrokeAnswer | MinimalAnswer},
+        key=True,
+        version=True,
+        minimal=True,
+    ),
     dependencies=[InHand],
     summary="Choose after a break",
 )
@@ -74,7 +103,7 @@ def decide(game_id: str, context: ContextDep, move: MoveDep) -> Response:
 
 @router.post(
     "/concede",
-    **describe(*ACTION_PROBLEMS, success={200: StrokeAnswer}, key=True, version=True),
+    **describe(*ACTION_PROBLEMS, success={200: StrokeAnswer | MinimalAnswer}, key=True, version=True, minimal=True),
     dependencies=[InHand],
     summary="Give the game up",
 )

@@ -6,9 +6,10 @@ from fastapi import APIRouter, Query, Response
 
 from protocol import AcceptRequest, ClientSeedRequest, MatchList, MatchRequest, MatchView
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
+from server.http.commands import Answer
 from server.http.dependencies import ANYBODY, ContextDep, Limit, PageDep, Search, Sent, respond
 from server.http.describe import NO_NUL, OWNED, describe
-from server.services.matches import matches, player_seeds
+from server.services.matches import match_list, matches, player_seeds
 
 router = APIRouter(prefix="/v1/matches", tags=["matches"])
 
@@ -27,7 +28,10 @@ def create(context: ContextDep, command: Sent) -> Response:
 
 
 @router.get(
-    "", **describe(Invalid, Unauthorized, token=False), dependencies=[ANYBODY], summary="Matches, the newest first"
+    "",
+    **describe(Invalid, Unauthorized, success={200: MatchList}, token=False),
+    dependencies=[ANYBODY],
+    summary="Matches, the newest first",
 )
 def listing(
     context: ContextDep,
@@ -38,12 +42,13 @@ def listing(
     status: Annotated[
         str | None,
         Query(
-            description="challenged, running, finished or aborted", json_schema_extra={"enum": list(matches.STATUSES)}
+            description="challenged, running, finished or aborted",
+            json_schema_extra={"enum": list(match_list.STATUSES)},
         ),
     ] = None,
-) -> MatchList:
+) -> Response:
     """An agent finds the challenges it may accept with `?agent=ID&status=challenged`."""
-    return matches.listing(context, agent, status, search, after, limit)
+    return respond(Answer(200, match_list.listing(context, agent, status, search, after, limit)))
 
 
 @router.get("/{match_id}", **describe(NotFound, Unauthorized, token=False), dependencies=[ANYBODY], summary="One match")

@@ -7,9 +7,10 @@ from fastapi import APIRouter, Depends, Header, Query, Request, Response
 from fastapi.sse import EventSourceResponse
 
 from server.errors import BadHeader, Draining, Invalid, NotFound, Unauthorized, invalid_field
+from server.http.connections import WRITE
 from server.http.dependencies import A_PLACE_TO_WATCH, ContextDep
 from server.http.describe import EVENT_STREAM, NO_NUL, NUMBER, describe
-from server.services.watch.spectators import Spectators
+from server.services.watch.spectators import Spectators, Write, never
 from server.store import paging
 
 router = APIRouter(prefix="/v1", tags=["streams"])
@@ -38,6 +39,7 @@ Watching = Annotated[Spectators, Depends(_spectators)]
 )
 async def watch_game(
     game_id: str,
+    request: Request,
     spectators: Watching,
     after: Annotated[
         str | None, Query(description="the id of the last event one has", json_schema_extra=NUMBER)
@@ -47,7 +49,7 @@ async def watch_game(
     ] = None,
 ) -> Response:
     """How the game stands, its strokes so far (after the given one), then everything as it happens."""
-    return _streamed(await spectators.watch_one(game_id, _sequence(last_event_id, after)))
+    return _streamed(await spectators.watch_one(game_id, _sequence(last_event_id, after), at_once(request)))
 
 
 @router.get(
@@ -57,6 +59,7 @@ async def watch_game(
     summary="Watch several games",
 )
 async def watch_games(
+    request: Request,
     spectators: Watching,
     game: Annotated[list[str] | None, Query(description="ids of games, 1 to 64", json_schema_extra=SOME_GAMES)] = None,
 ) -> Response:
@@ -64,7 +67,7 @@ async def watch_games(
     games = list(dict.fromkeys(game or ()))
     if not 1 <= len(games) <= MOST_GAMES:
         raise invalid_field("game", f"{len(games)} games", f"1 to {MOST_GAMES} games")
-    return _streamed(await spectators.watch_many(games))
+    return _streamed(await spectators.watch_many(games, at_once(request)))
 
 
 def _sequence(header: str | None, query: str | None) -> int:
@@ -75,6 +78,12 @@ def _sequence(header: str | None, query: str | None) -> int:
     if not (header.isascii() and header.isdigit() and len(header) <= paging.LONGEST_NUMBER):
         raise BadHeader("Last-Event-ID is no event's id", field="Last-Event-ID", value=header, allowed="digits")
     return int(header)
+
+
+def at_once(request: Request) -> Write:
+    """How to write to whoever sent a request, past the framework: 100 spectators are 100 writes and no more."""
+    write: Write = request.scope.get("extensions", {}).get(WRITE, never)
+    return write
 
 
 def _streamed(events: AsyncIterator[bytes]) -> Response:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Row, Select, Table, tuple_
+from sqlalchemy import CompoundSelect, Row, Select, Table, select, tuple_, union_all
 
 from server.errors import invalid_field
 
@@ -61,6 +61,21 @@ def newest_first(query: Select[Any], table: Table, after: PagePosition | None, l
     if after is not None:
         query = query.where(_key(table) < (after.created_at, after.id))
     return query.order_by(table.c.created_at.desc(), table.c.id.desc()).limit(limit + 1)
+
+
+def newest_of(
+    queries: Sequence[Select[Any]], table: Table, after: PagePosition | None, limit: int
+) -> Select[Any] | CompoundSelect[Any]:
+    """The same of the rows of several queries, no row in two of them: each is read from an index of its own, in order.
+
+    One query with an OR would read and sort all its rows.
+    """
+    if len(queries) == 1:
+        return newest_first(queries[0], table, after, limit)
+    pages = [newest_first(query, table, after, limit).subquery() for query in queries]
+    newest = union_all(*(select(page) for page in pages))
+    order = (newest.selected_columns.created_at.desc(), newest.selected_columns.id.desc())
+    return newest.order_by(*order).limit(limit + 1)
 
 
 def cut(rows: Sequence[Row[Any]], limit: int) -> tuple[Sequence[Row[Any]], str | None]:

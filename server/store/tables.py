@@ -43,6 +43,8 @@ agents = Table(
     Column("skeleton", String(128), nullable=False, server_default="", index=True),
     Column("house", Boolean, nullable=False),
     Column("created_at", BigInteger, nullable=False),
+    Index("ix_agents_listed", "created_at", "id"),
+    Index("ix_agents_listed_house", "house", "created_at", "id"),
 )
 """`skeleton`: what names that look alike have in common (`server.security.names`); agents of version 0.1.0 may share
 one. `house`: the server runs it itself."""
@@ -61,12 +63,13 @@ tokens = Table(
     metadata,
     Column("id", Identifier, primary_key=True),
     Column("digest", String(64), nullable=False, unique=True),
-    Column("agent_id", Identifier, ForeignKey("agents.id"), index=True),
+    Column("agent_id", Identifier, ForeignKey("agents.id")),
     Column("name", String(64)),
     Column("scopes", String(64), nullable=False),
     Column("created_at", BigInteger, nullable=False),
     Column("expires_at", BigInteger),
     Column("revoked_at", BigInteger),
+    Index("ix_tokens_listed", "agent_id", "created_at", "id"),
 )
 """`digest`: SHA-256 (hex) of the token. `agent_id`: whose it is, null for those who do not play."""
 
@@ -85,10 +88,10 @@ matches = Table(
     "matches",
     metadata,
     Column("id", Identifier, primary_key=True),
-    Column("seat_0", Identifier, ForeignKey("agents.id"), nullable=False, index=True),
-    Column("seat_1", Identifier, ForeignKey("agents.id"), nullable=False, index=True),
+    Column("seat_0", Identifier, ForeignKey("agents.id"), nullable=False),
+    Column("seat_1", Identifier, ForeignKey("agents.id"), nullable=False),
     Column("challenger", Identifier, ForeignKey("agents.id")),
-    Column("status", String(16), nullable=False, index=True),
+    Column("status", String(16), nullable=False),
     Column("games", Integer, nullable=False),
     Column("rules", String(32), nullable=False),
     Column("table", JSON, nullable=False),
@@ -116,6 +119,12 @@ matches = Table(
     Column("created_at", BigInteger, nullable=False),
     Column("started_at", BigInteger),
     Column("ended_at", BigInteger),
+    Index("ix_matches_listed", "created_at", "id"),
+    Index("ix_matches_listed_status", "status", "created_at", "id"),
+    Index("ix_matches_listed_seat_0", "seat_0", "created_at", "id"),
+    Index("ix_matches_listed_seat_1", "seat_1", "created_at", "id"),
+    Index("ix_matches_listed_seat_0_status", "seat_0", "status", "created_at", "id"),
+    Index("ix_matches_listed_seat_1_status", "seat_1", "status", "created_at", "id"),
 )
 """`seed`, `rack_seed` (null: the same): the secrets; `foreseeable`: `seed` was not drawn here, or follows from one that
 was not. `engine`, `engine_version`: digest and version of the engine that the match is committed to.
@@ -206,11 +215,13 @@ moves = Table(
     Column("seat", Integer, nullable=False),
     Column("stroke", JSON, nullable=False),
     Column("line", Text, nullable=False),
+    Column("packed", LargeBinary),
     Column("created_at", BigInteger, nullable=False),
     UniqueConstraint("game_id", "number"),
 )
-"""Every stroke and decision of a game, by number from 0. `stroke`: a `StrokeDetail` without its events, which
-are in `line`, the record's."""
+"""Every stroke and decision of a game, by number from 0. `packed`: the record's line, compressed; `line`: the same
+in rows of earlier versions, else empty; `stroke`: a `StrokeDetail` without its events, null where it is read from the
+line (`server.services.play.stored_strokes`)."""
 
 answers = Table(
     "answers",
@@ -253,7 +264,7 @@ tournaments = Table(
     metadata,
     Column("id", Identifier, primary_key=True),
     Column("name", String(64), nullable=False),
-    Column("status", String(16), nullable=False, index=True),
+    Column("status", String(16), nullable=False),
     Column("terms", JSON, nullable=False),
     Column("agents", JSON, nullable=False),
     Column("games", Integer, nullable=False),
@@ -261,6 +272,8 @@ tournaments = Table(
     Column("created_at", BigInteger, nullable=False),
     Column("started_at", BigInteger),
     Column("ended_at", BigInteger),
+    Index("ix_tournaments_listed", "created_at", "id"),
+    Index("ix_tournaments_listed_status", "status", "created_at", "id"),
 )
 """`terms`: the whole `tournament.Spec`, its secret seed among them; `agents`: entrant's name to agent id.
 `games`: counted so far; `due`: certain and not finished. Both follow from the entries, and are here for lists."""
@@ -269,11 +282,12 @@ tournament_entries = Table(
     "tournament_entries",
     metadata,
     Column("sequence", Sequence, primary_key=True, autoincrement=True),
-    Column("tournament_id", Identifier, ForeignKey("tournaments.id"), nullable=False, index=True),
+    Column("tournament_id", Identifier, ForeignKey("tournaments.id"), nullable=False),
     Column("kind", String(32), nullable=False),
     Column("by", Identifier, nullable=False),
     Column("fields", JSON, nullable=False),
     Column("created_at", BigInteger, nullable=False),
+    Index("ix_tournament_entries_noted", "tournament_id", "sequence"),
 )
 """What happened in an event, in order: results and decisions. How it stands follows from its terms and these alone."""
 

@@ -25,13 +25,14 @@ TYPED = """
 from typing import assert_type
 
 from client import Action, AsyncPooliad, MatchRequest, Pooliad
-from protocol import AgentList, AgentToken, MatchView, StrokeAnswer
+from protocol import AgentList, AgentToken, MatchView, MinimalAnswer, StrokeAnswer
 
 
 def sync(api: Pooliad, action: Action) -> None:
     assert_type(api.agents(house=True), AgentList)
     assert_type(api.register("x", invitation="y"), AgentToken)
     assert_type(api.play("g", 1, action, simulated=3), StrokeAnswer)
+    assert_type(api.act("g", 1, action, simulated=3), MinimalAnswer)
     assert_type(api.record("g"), bytes)
 
 

@@ -29,10 +29,11 @@ def entries(name):
 
 
 def pins(name):
-    """Each locked distribution with its version and marker."""
+    """Each locked distribution with its version and marker; of several versions of one, that for this Python."""
     found = [PIN.fullmatch(" ".join(word for word in words if not HASH.fullmatch(word))) for words in entries(name)]
     assert all(found), "every line is NAME==VERSION, a marker and hashes"
-    return {match["name"]: (match["version"], match["marker"]) for match in found}
+    here_last = sorted(found, key=lambda match: applies(match["marker"] and Marker(match["marker"])))
+    return {match["name"]: (match["version"], match["marker"]) for match in here_last}
 
 
 def applies(marker, extra=""):

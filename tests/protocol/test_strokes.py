@@ -1,6 +1,7 @@
 """Strokes on the wire, from real shots: nothing is lost, and a view shows what its reader missed."""
 
 import json
+import re
 
 import pytest
 from support.players import Potter
@@ -11,7 +12,9 @@ from protocol import ShotsPage, StrokeDetail, StrokeView, View
 from protocol.strokes import since_own_last
 from referee.game import Action, Decision
 from referee.play import MatchSeed, NoiseModel, play_stroke, start_game
+from referee.record import canonical, stroke_entry
 from referee.rules import EightBall
+from server.services.play.stored_strokes import is_decision
 
 RULES = EightBall(Table.olympiad())
 NOISE = NoiseModel(1.0)
@@ -41,6 +44,25 @@ def test_a_stroke_survives_json_with_every_event(strokes):
         assert [(ball["ball"], ball["pocket"]) for ball in sent["pocketed"]] == [
             (ball, pocket) for ball, pocket, _ in stroke.result.facts.pocketed_in_order
         ]
+
+
+@pytest.mark.parametrize("table", [Table.olympiad(), Table.nine_foot()], ids=["olympiad", "nine_foot"])
+def test_the_line_of_a_record_says_all_that_players_are_told(table):
+    """The server stores strokes once: what views and histories show is the same, but for the sign of zeros.
+
+    RFC 8785 writes -0 as 0 (section 3.2.2.3); the events of histories have always been those of the line.
+    """
+    counted = 0
+    for seed in range(4):
+        played = play_game(EightBall(table), (Potter("a"), Potter("b")), MatchSeed.of(seed).game(0), NOISE).strokes
+        for index, stroke in enumerate(played):
+            entry = json.loads(canonical(stroke_entry(stroke, index)))
+            for kind in (StrokeView, StrokeDetail):
+                told = kind.of(stroke, index).model_dump_json()
+                assert kind.of_entry(entry).model_dump_json() == re.sub(r"-0\.0(?=[,\]}])", "0.0", told)
+            counted += stroke.result is not None and bool(stroke.result.facts.pocketed_in_order)
+            assert is_decision(canonical(stroke_entry(stroke, index))) == (stroke.result is None)
+    assert counted > 10
 
 
 def test_a_ruling_on_the_wire_says_what_the_referee_said(strokes):

@@ -97,7 +97,7 @@ def test_a_restart_loses_nothing_and_repeats_nothing(own_server, table_at, break
 
 def test_clocks_and_connections_follow_the_players(own_server, table_at):
     """Nobody has come yet; the mover fetches its turn, which starts its clock; the other one waits, and goes."""
-    server = own_server()
+    server = own_server(POOLIAD_FETCH_GRACE="60", POOLIAD_FETCH_GRACE_GAME="60")
     table = table_at(server)
     game = table.game
     with watching(server, f"/v1/games/{game}/stream") as events:

@@ -2,12 +2,12 @@
 
 import logging
 import secrets
-from typing import Any, Final, get_args
+from typing import Any
 
-from sqlalchemy import Connection, Row, insert, or_, select
+from sqlalchemy import Connection, Row, insert, select
 
 from physics import PhysicsError, Table
-from protocol import AcceptRequest, MatchList, MatchRequest, MatchStatus, MatchView
+from protocol import AcceptRequest, MatchRequest, MatchView
 from referee import EightBall, InvalidGame
 from referee.play import nanoseconds
 from referee.record import this_engine
@@ -20,12 +20,9 @@ from server.services.matches.player_seeds import CHALLENGED, OPENING, add_seed, 
 from server.services.play import agent_messages, games
 from server.services.play.live_game import ABORTED, RUNNING, find_match, hold_match
 from server.services.runtime.context import Context, Writing
-from server.store import paging
 from server.store.tables import agents, matches
 
 log = logging.getLogger("pooliad.server.matches")
-
-STATUSES: Final[tuple[str, ...]] = get_args(MatchStatus)
 
 
 def create(context: Context, command: Command) -> Answer:
@@ -69,32 +66,6 @@ def one(context: Context, match_id: str) -> MatchView:
     """A match with its games; raises `NotFound`."""
     with context.database.reading() as connection:
         return match_views.view(connection, find_match(connection, match_id))
-
-
-def listing(
-    context: Context,
-    agent_id: str | None,
-    status: str | None,
-    search: str | None,
-    after: paging.PagePosition | None,
-    limit: int,
-) -> MatchList:
-    """Matches, the newest first, when asked for of one agent, of one status, with a player's name; raises `Invalid`."""
-    query = select(matches)
-    if agent_id is not None:
-        query = query.where(or_(matches.c.seat_0 == agent_id, matches.c.seat_1 == agent_id))
-    if status is not None:
-        if status not in STATUSES:
-            raise invalid_field("status", status, f"one of {', '.join(STATUSES)}")
-        query = query.where(matches.c.status == status)
-    if search is not None:
-        named = select(agents.c.id).where(paging.contains(agents.c.name, search))
-        found = or_(matches.c.seat_0.in_(named), matches.c.seat_1.in_(named), matches.c.id == search)
-        query = query.where(found)
-    with context.database.reading() as connection:
-        rows = connection.execute(paging.newest_first(query, matches, after, limit)).all()
-        page, more = paging.cut(rows, limit)
-        return MatchList(matches=tuple(match_views.view(connection, row) for row in page), next_cursor=more)
 
 
 def abort_foreign(context: Context) -> None:

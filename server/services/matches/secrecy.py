@@ -4,6 +4,7 @@ An event's seed: until all its matches are over. Untold noise: until match and e
 the noise seed of a finished game knows the level at which the others are still played.
 """
 
+from collections.abc import Sequence
 from typing import Any, Final, Literal
 
 from sqlalchemy import Connection, Row, select
@@ -27,14 +28,30 @@ def withheld(connection: Connection, match: Row[Any], *, over: bool | None = Non
         match: of `matches`.
         over: whether the match is over, where that is decided and not stored yet.
     """
-    if match.noise_told:
-        return None
-    if not (match.status not in MATCH_OPEN if over is None else over):
-        return "match"
-    both = tournaments.join(tournament_games, tournament_games.c.tournament_id == tournaments.c.id)
-    ours = select(tournaments).select_from(both).where(tournament_games.c.match_id == match.id)
-    event = connection.execute(ours).one_or_none()
-    return None if event is None or is_event_over(connection, event) else "tournament"
+    return all_withheld(connection, (match,), over=over)[match.id]
+
+
+def all_withheld(
+    connection: Connection, rows: Sequence[Row[Any]], *, over: bool | None = None
+) -> dict[str, Holder | None]:
+    """The same of several matches, by id."""
+    kept: dict[str, Holder | None] = dict.fromkeys(match.id for match in rows if match.noise_told)
+    untold = [match for match in rows if not match.noise_told]
+    ended = [match.id for match in untold if (match.status not in MATCH_OPEN if over is None else over)]
+    kept |= dict.fromkeys((match.id for match in untold if match.id not in ended), "match")
+    kept |= dict.fromkeys(ended)
+    return kept | dict.fromkeys(_of_open_events(connection, ended), "tournament")
+
+
+def _of_open_events(connection: Connection, match_ids: Sequence[str]) -> list[str]:
+    """Those of the matches that belong to an event which is not over."""
+    if not match_ids:
+        return []
+    ours = select(tournament_games.c.match_id, tournament_games.c.tournament_id)
+    found = connection.execute(ours.where(tournament_games.c.match_id.in_(match_ids))).all()
+    events = select(tournaments).where(tournaments.c.id.in_({row.tournament_id for row in found}))
+    still_open = {event.id for event in connection.execute(events).all() if not is_event_over(connection, event)}
+    return [row.match_id for row in found if row.tournament_id in still_open]
 
 
 def is_event_over(connection: Connection, event: Row[Any]) -> bool:

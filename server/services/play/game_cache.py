@@ -8,8 +8,8 @@ from sqlalchemy import Connection
 from server.services.play.live_game import LiveGame, find_row, read
 from server.services.runtime.cache import VersionedCache
 
-MOST_KEPT: Final = 1024
-"""Games, about 20 kB each."""
+MOST_KEPT: Final = 4096
+"""Games, about 20 kB each: more than a server plays at once, or each stroke would read its game anew."""
 
 
 class GameCache:

@@ -1,17 +1,17 @@
 """Looking at games: how one stands, its strokes in pages, its record."""
 
-import json
 from collections.abc import Mapping
-from typing import Final
+from typing import Any, Final
 
-from sqlalchemy import Connection, select
+from sqlalchemy import Connection, Select, select
 
-from protocol import GameAnswer, ShotsPage, StrokeDetail
+from protocol import GameAnswer, ShotsPage
 from server.errors import GameUnfinished, MatchUnfinished, ServerError, TournamentUnfinished
 from server.http.commands import Answer
 from server.security.callers import Caller
 from server.services.matches.match_views import summary
 from server.services.matches.secrecy import Holder
+from server.services.play import stored_strokes
 from server.services.play.live_game import LiveGame, find
 from server.services.runtime.context import Context
 from server.store.rows import GameRow
@@ -38,10 +38,7 @@ def shots(context: Context, game_id: str, cursor: int, limit: int) -> ShotsPage:
     with context.database.reading() as connection:
         find(connection, game_id)
         rows = connection.execute(select(moves).where(ours).order_by(moves.c.number).limit(limit + 1)).all()
-    page = tuple(
-        StrokeDetail.model_validate(row.stroke | {"events": json.loads(row.line).get("events", ())})
-        for row in rows[:limit]
-    )
+    page = tuple(stored_strokes.detail(row) for row in rows[:limit])
     return ShotsPage(shots=page, next_cursor=cursor + limit if len(rows) > limit else None)
 
 
@@ -68,5 +65,6 @@ _UNTIL: Final[Mapping[Holder, type[ServerError]]] = {"match": MatchUnfinished, "
 
 def record_lines(connection: Connection, row: GameRow) -> list[str]:
     """The record of a game that is over, from its row."""
-    ours = select(moves.c.line).where(moves.c.game_id == row.id).order_by(moves.c.number)
-    return [line for line in (row.header, *connection.scalars(ours), row.ending, row.seal) if line is not None]
+    ours: Select[Any] = select(*stored_strokes.LINE).where(moves.c.game_id == row.id).order_by(moves.c.number)
+    lines = [stored_strokes.line(each) for each in connection.execute(ours)]
+    return [line for line in (row.header, *lines, row.ending, row.seal) if line is not None]

@@ -1,6 +1,6 @@
 """A game as the database has it: its rows, read into the referee's values and shown as messages."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
@@ -17,6 +17,7 @@ from server.errors import Forbidden, NotFound
 from server.security.callers import Caller
 from server.services.matches import match_seeds
 from server.services.matches.secrecy import Holder, withheld
+from server.services.play import stored_strokes
 from server.services.play.clock import columns
 from server.store import locks
 from server.store.rows import GameRow
@@ -216,8 +217,13 @@ def player_names(connection: Connection, match: Row[Any]) -> tuple[str, str]:
 def score_of(connection: Connection, match_id: str) -> tuple[float, float]:
     """Games won by seat, half a point each for a drawn one."""
     finished = select(games.c.winner).where(games.c.match_id == match_id, games.c.status == FINISHED)
+    return points(connection.scalars(finished))
+
+
+def points(winners: Iterable[int | None]) -> tuple[float, float]:
+    """The score that these winners of games make, None for a draw."""
     score = [0.0, 0.0]
-    for winner in connection.scalars(finished):
+    for winner in winners:
         for seat in (0, 1):
             score[seat] += 0.5 if winner is None else float(winner == seat)
     return score[0], score[1]
@@ -225,13 +231,13 @@ def score_of(connection: Connection, match_id: str) -> tuple[float, float]:
 
 def strokes_since(connection: Connection, game_id: str, seat: int | None) -> Sequence[StrokeView]:
     """The seat's own last stroke and what followed; for a spectator the last stroke."""
-    rows = connection.scalars(_SINCE_LAST if seat is None else _SINCE_OWN, {"game": game_id, "seat": seat})
-    return tuple(StrokeView.model_validate(stroke) for stroke in rows)
+    rows = connection.execute(_SINCE_LAST if seat is None else _SINCE_OWN, {"game": game_id, "seat": seat})
+    return tuple(stored_strokes.view(row) for row in rows)
 
 
 def _strokes_since(last: Select[Any]) -> Select[Any]:
     first = func.coalesce(last.order_by(moves.c.number.desc()).limit(1).scalar_subquery(), 0)
-    since = select(moves.c.stroke).where(moves.c.game_id == bindparam("game"), moves.c.number >= first)
+    since = select(*stored_strokes.SUMMED).where(moves.c.game_id == bindparam("game"), moves.c.number >= first)
     return since.order_by(moves.c.number)
 
 

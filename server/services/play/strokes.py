@@ -14,15 +14,26 @@ from typing import Any, Final
 from sqlalchemy import Connection, insert
 
 from physics import PhysicsError, Status
-from protocol import DecisionRequest, EventView, Fault, ShotRequest, StrokeAnswer, StrokeDetail, View, shown
+from protocol import (
+    DecisionRequest,
+    EventView,
+    Fault,
+    MinimalAnswer,
+    ShotRequest,
+    StrokeAnswer,
+    StrokeDetail,
+    View,
+    shown,
+)
 from referee import Action, Decision, Refusal
 from referee.play import Refused, Stroke, play_stroke
 from referee.play.clock import SECOND_NS
 from referee.record import Chain, canonical, stroke_entry
 from server import errors
 from server.http.commands import Answer, Command, keep, parse, recall
+from server.http.preferences import APPLIED, MINIMAL
 from server.security.callers import Caller
-from server.services.play import budget, games
+from server.services.play import budget, games, stored_strokes
 from server.services.play.live_game import LiveGame
 from server.services.play.long_strokes import MOST_EVENTS, IsLong
 from server.services.runtime.context import Context, Writing
@@ -93,7 +104,8 @@ def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command],
     with context.writing() as writing:
         hold_match_of(writing.connection, game_id)
         live = budget.declare(writing.connection, live, seat, asked.simulated)
-        after, answer = _stored(writing, live, stroke, end, told)
+        after, view = _stored(writing, live, stroke, end, told)
+        answer = _minimal(after, view) if command.minimal else _answer(after, told, view)
         keep(writing.connection, command, answer)
         context.failpoint("shot-kept")
     context.failpoint("shot-committed")
@@ -226,14 +238,15 @@ class _Told:
         number = games.next_move(live)
         detail, chain = StrokeDetail.of(stroke, number, events=False), Chain(live.row.head)
         told, recorded = _events(stroke)
-        row = {
-            "game_id": live.id,
-            "number": number,
-            "seat": stroke.seat,
-            "stroke": detail.model_dump(mode="json", exclude={"events"}),
-            "line": chain.add(stroke_entry(stroke, number, end.charge.charged_ns, events=False), recorded),
-        }
+        line = chain.add(stroke_entry(stroke, number, end.charge.charged_ns, events=False), recorded)
+        summary = detail.model_dump(mode="json", exclude={"events"}) if _is_summed(stroke) else None
+        row = {"game_id": live.id, "number": number, "seat": stroke.seat, **stored_strokes.columns(line, summary)}
         return cls(detail, detail.model_dump_json().removesuffix(_NO_EVENTS) + told, row, chain)
+
+
+def _is_summed(stroke: Stroke) -> bool:
+    """Whether what players are told is stored beside the record's line."""
+    return stroke.result is not None and stroke.result.n_events > stored_strokes.MOST_EVENTS
 
 
 def _events(stroke: Stroke) -> tuple[str, dict[str, str]]:
@@ -264,16 +277,14 @@ REST: Final = 3.0
 """Times as long as a long stroke's events kept the interpreter, it is left to others."""
 
 
-def _stored(
-    writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd, told: _Told
-) -> tuple[LiveGame, Answer]:
-    """Write the move, the game that follows and its clocks: the game as it is then, and the answer."""
+def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd, told: _Told) -> tuple[LiveGame, View]:
+    """Write the move, the game that follows and its clocks: the game as it is then, and as the player sees it."""
     live = games.advance(writing, live, stroke.game, end, told.chain)
     writing.context.failpoint("shot-advanced")
     writing.connection.execute(_MOVE, told.row | {"created_at": writing.now})
     writing.context.failpoint("shot-moved")
     view = live.view_since((told.detail,), stroke.seat, writing.now)  # the player's last stroke is this one
-    return live, _answer(live, told, view)
+    return live, view
 
 
 def _answer(live: LiveGame, told: _Told, view: View) -> Answer:
@@ -281,6 +292,12 @@ def _answer(live: LiveGame, told: _Told, view: View) -> Answer:
     rest = StrokeAnswer.model_construct(view=view, clocks=view.clocks).model_dump_json()
     body = f'{{"game":"{live.id}","stroke":{told.text},{rest.removeprefix("{")}'
     return Answer(200, body.encode(), {"etag": f'"{live.row.version}"'})
+
+
+def _minimal(live: LiveGame, view: View) -> Answer:
+    """A `MinimalAnswer` in JSON; sent again, the request gets the same, whatever it prefers then."""
+    body = MinimalAnswer.model_construct(game=live.id, view=view).model_dump_json()
+    return Answer(200, body.encode(), {"etag": f'"{live.row.version}"', APPLIED: MINIMAL})
 
 
 _MOVE: Final = insert(moves)

@@ -7,7 +7,7 @@ hour in which a server runs: a player who could not reach any asks then.
 from functools import partial
 from typing import Final
 
-from sqlalchemy import delete, exists, select, tuple_
+from sqlalchemy import delete, exists, func, select, tuple_
 
 from referee.play import nanoseconds
 from server.services.play.live_game import RUNNING
@@ -22,10 +22,15 @@ PERIOD: Final = 600.0
 BATCH: Final = 500
 """Answers deleted in one transaction: strokes do not wait long behind it."""
 
+_OF_A_GAME: Final = "/v1/games/"
+"""How the routes of a game's commands begin; its id follows."""
+_ID: Final = len("game_") + 16
+"""Letters of a game's id."""
 _IN_A_MATCH: Final = exists().where(
+    answers.c.route.startswith(_OF_A_GAME),
+    games.c.id == func.substr(answers.c.route, len(_OF_A_GAME) + 1, _ID),
+    matches.c.id == games.c.match_id,
     matches.c.status == RUNNING,
-    games.c.match_id == matches.c.id,
-    answers.c.route.like("/v1/games/" + games.c.id + "/%"),
 )
 
 
@@ -41,13 +46,18 @@ def retention(context: Context) -> Periodic:
 
 
 def prune(context: Context) -> int:
-    """Delete the oldest answers that nobody can ask for again, at most a batch; how many they were."""
-    keep = nanoseconds(context.settings.answer_seconds)
+    """Delete the oldest answers that nobody can ask for again, at most a batch; how many they were.
+
+    They are looked for without the writer's place: what nobody can ask for now, nobody can ask for later.
+    """
+    before = context.time.now() - nanoseconds(context.settings.answer_seconds)
+    old = select(*answers.primary_key).where(answers.c.created_at < before, ~_IN_A_MATCH)
+    with context.database.reading() as connection:
+        found = connection.execute(old.order_by(answers.c.created_at).limit(BATCH)).all()
+    if not found:
+        return 0
     with context.writing() as writing:
-        old = (
-            select(*answers.primary_key)
-            .where(answers.c.created_at < writing.now - keep, ~_IN_A_MATCH)
-            .order_by(answers.c.created_at)
-            .limit(BATCH)
-        )
-        return writing.connection.execute(delete(answers).where(tuple_(*answers.primary_key).in_(old))).rowcount
+        these = tuple_(*answers.primary_key).in_([tuple(row) for row in found])
+        # one that another process has deleted meanwhile may have been asked for, and answered, anew
+        old_ones = delete(answers).where(these, answers.c.created_at < before)
+        return writing.connection.execute(old_ones).rowcount

@@ -7,6 +7,7 @@ from sqlalchemy import select
 import pictures
 from physics import Shot, Table, TableState, simulate
 from server.errors import NotFound, invalid_field
+from server.services.play import stored_strokes
 from server.services.play.live_game import find
 from server.services.runtime.context import Context
 from server.store.tables import moves
@@ -32,8 +33,8 @@ def stroke(context: Context, game_id: str, number: str, theme: str, upright: boo
         if not (number.isascii() and number.isdigit() and len(number) <= LONGEST_NUMBER):
             raise nothing
         ours = (moves.c.game_id == game_id) & (moves.c.number == int(number))
-        entry = connection.scalar(select(moves.c.stroke).where(ours))
-    if entry is None or entry["shot"] is None:
+        row: Any = connection.execute(select(*stored_strokes.SUMMED).where(ours)).one_or_none()
+    if row is None or (entry := stored_strokes.entry(row)).get("shot") is None:
         raise nothing
     return _drawn(live.rules.table, entry, theme, upright)
 

@@ -1,15 +1,16 @@
 """What spectators are told about a game, read from the database: its strokes, clocks, players and result."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final, NamedTuple
 
 from fastapi.sse import format_sse_event
-from sqlalchemy import Connection, Row, Select, func, select
+from sqlalchemy import ColumnElement, Connection, Row, Select, select
 
 from protocol import GameAnswer, StreamClocks, StreamConnections, StreamResult, of_many
 from server.services.matches.match_views import summary
+from server.services.play import stored_strokes
 from server.services.play.live_game import LiveGame, find, score_of
 from server.services.runtime.context import Context
 from server.store.rows import GameRow
@@ -56,10 +57,16 @@ class Marks(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SpectatorState:
-    """What the spectators of a game know already: its marks, and its strokes up to a sequence."""
+    """What the spectators of a game know already: its marks, and its strokes up to a sequence, so many of them."""
 
     marks: Marks
     sequence: int
+    strokes: int
+
+    def followed_by(self, strokes: Sequence[SpectatorEvent], marks: Marks) -> "SpectatorState":
+        """What they know when they have been told of more strokes."""
+        last = strokes[-1].sequence if strokes else None
+        return SpectatorState(marks, self.sequence if last is None else last, self.strokes + len(strokes))
 
 
 def opening(context: Context, game_id: str, after: int | None) -> tuple[list[SpectatorEvent], SpectatorState]:
@@ -72,7 +79,7 @@ def opening(context: Context, game_id: str, after: int | None) -> tuple[list[Spe
     """
     with context.database.reading() as connection:
         live = find(connection, game_id)
-        told = [] if after is None else list(_strokes(connection, game_id, after))
+        told = [] if after is None else list(_strokes(connection, game_id, moves.c.sequence > after))
         standing = _standing(context, connection, live)
         first = GameAnswer(
             **summary(live.row, live.fixture.withheld), view=live.view(connection, None, context.time.now())
@@ -90,26 +97,27 @@ def since(
 ) -> tuple[list[SpectatorEvent], dict[str, SpectatorState]]:
     """The news about several games since they stood as known, and how those stand now that have any.
 
-    One query when nothing has happened, however many games there are.
+    One query when nothing has happened, however many games there are; two more for each game with news.
     """
     news: list[SpectatorEvent] = []
     standings: dict[str, SpectatorState] = {}
     with context.database.reading() as connection:
-        for game_id in _moved(context, connection, known):
-            live, before = find(connection, game_id), known[game_id]
-            after = standings[game_id] = _standing(context, connection, live)
-            news += [*_strokes(connection, game_id, before.sequence), *_rest(context, connection, live, after, before)]
+        here = agents_here(context, connection)
+        for game_id in _moved(connection, known, here):
+            live, before = context.seen.find(connection, game_id), known[game_id]
+            strokes = list(_strokes(connection, game_id, moves.c.number >= before.strokes))
+            after = standings[game_id] = before.followed_by(strokes, _marks(here, live.row, live.agents))
+            news += [*strokes, *_rest(context, connection, live, after, before)]
     return news, standings
 
 
-def _moved(context: Context, connection: Connection, known: Mapping[str, SpectatorState]) -> list[str]:
+def _moved(connection: Connection, known: Mapping[str, SpectatorState], here: frozenset[str]) -> list[str]:
     """The games that stand otherwise than known."""
     columns: Select[Any] = select(
         *(games.c.id, games.c.version, games.c.mover, games.c.delivered, games.c.clock_from),
         *(matches.c.seat_0, matches.c.seat_1),
     ).join(matches, games.c.match_id == matches.c.id)
     rows = connection.execute(columns.where(games.c.id.in_(known))).all()
-    here = _here(context, connection)
     return [row.id for row in rows if _marks(here, row, (row.seat_0, row.seat_1)) != known[row.id].marks]
 
 
@@ -139,19 +147,23 @@ def _result(connection: Connection, live: LiveGame) -> StreamResult:
     return StreamResult(**kept, score=score_of(connection, live.match.id), record=f"/v1/games/{live.id}/record")
 
 
-def _strokes(connection: Connection, game_id: str, after: int) -> Iterator[SpectatorEvent]:
-    columns = select(moves.c.sequence, moves.c.line, moves.c.stroke["stroke"].as_integer().label("index"))
-    ours = columns.where(moves.c.game_id == game_id, moves.c.sequence > after).order_by(moves.c.sequence)
+def _strokes(connection: Connection, game_id: str, which: ColumnElement[bool]) -> Iterator[SpectatorEvent]:
+    columns: Select[Any] = select(moves.c.sequence, *stored_strokes.LINE)
+    ours = columns.where(moves.c.game_id == game_id, which).order_by(moves.c.number)
     for row in connection.execute(ours):
-        yield SpectatorEvent(game_id, "decision" if row.index is None else "stroke", row.line, row.sequence)
+        line = stored_strokes.line(row)
+        kind = "decision" if stored_strokes.is_decision(line) else "stroke"
+        yield SpectatorEvent(game_id, kind, line, row.sequence)
 
 
 def _standing(context: Context, connection: Connection, live: LiveGame) -> SpectatorState:
-    last = select(func.max(moves.c.sequence)).where(moves.c.game_id == live.id)
-    return SpectatorState(_marks(_here(context, connection), live.row, live.agents), connection.scalar(last) or 0)
+    numbers = select(moves.c.sequence, moves.c.number).where(moves.c.game_id == live.id)
+    last = connection.execute(numbers.order_by(moves.c.number.desc()).limit(1)).first()
+    sequence, strokes = (0, 0) if last is None else (last.sequence, last.number + 1)
+    return SpectatorState(_marks(agents_here(context, connection), live.row, live.agents), sequence, strokes)
 
 
-def _here(context: Context, connection: Connection) -> frozenset[str]:
+def agents_here(context: Context, connection: Connection) -> frozenset[str]:
     """The agents that poll this process, or another one on the same database."""
     now = context.time.now()
     here = context.presence.here(now)

@@ -11,6 +11,7 @@ from gymnasium.utils.env_checker import check_env
 from support.require import require
 
 import client.learn
+from client.learn import frames
 from physics import Table
 
 NAME = "client.learn:pooliad/EightBall-v0"
@@ -55,7 +56,29 @@ def test_pixels_show_the_position():
 
 
 def test_what_can_be_drawn_is_said():
-    with pytest.raises(ValueError, match="render_mode = 'human': must be 'ansi', 'rgb_array' or None"):
+    with pytest.raises(ValueError, match="render_mode = 'video': must be 'ansi', 'rgb_array', 'human' or None"):
+        client.learn.EightBallEnv(render_mode="video")
+
+
+def test_a_window_shows_every_step(monkeypatch):
+    """pygame's own driver for machines without a screen."""
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    monkeypatch.setenv("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    pygame = pytest.importorskip("pygame")
+    monkeypatch.setitem(client.learn.EightBallEnv.metadata, "render_fps", 1000)
+    env = client.learn.EightBallEnv(render_mode="human")
+    env.reset(seed=2)
+    for _ in range(2):
+        surface = pygame.surfarray.array3d(pygame.display.get_surface()).swapaxes(0, 1)
+        assert (surface == frames.pixels(env.game.state, env.table)).all()
+        env.step(MIDDLE)
+    env.close()
+    assert not pygame.display.get_init()
+
+
+def test_a_window_needs_pygame(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pygame", None)
+    with pytest.raises(ImportError, match="render_mode = 'human': needs pygame"):
         client.learn.EightBallEnv(render_mode="human")
 
 

@@ -1,17 +1,20 @@
 """Clocks while no server process runs or none reaches the database: nobody is charged for that time."""
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Final
 
 from sqlalchemy import ColumnElement, case, select, update
 
 from referee.play.clock import GameClock
 from server.services.play.clock import columns
 from server.services.play.clock.columns import HELD
-from server.services.play.live_game import RUNNING, LiveGame, find
+from server.services.play.live_game import LiveGame, find
 from server.services.runtime.context import Context, Writing
 from server.store.locks import hold_match_of
 from server.store.tables import games, matches
+
+NOBODY: Final = ""
+"""Comes before every agent: games with a mover are those that go on, and are found in its index."""
 
 
 def hold(writing: Writing, last: int) -> None:
@@ -45,7 +48,7 @@ def _resume(writing: Writing, stopped: int, *conditions: ColumnElement[bool]) ->
 
 def _running(writing: Writing, *conditions: ColumnElement[Any]) -> Iterator[LiveGame]:
     """The running games that satisfy the conditions, each locked by the transaction."""
-    found = select(games.c.id).where(games.c.status == RUNNING, *conditions)
+    found = select(games.c.id).where(games.c.mover > NOBODY, *conditions)
     for game_id in writing.connection.scalars(found).all():
         hold_match_of(writing.connection, game_id)
         live = find(writing.connection, game_id)
