@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from physics.errors import InvalidShot
+from physics.kernels.tolerances import LIFT
 from physics.real_table import RealTable
 from physics.shot import Shot
 from physics.table import Table
@@ -83,8 +84,30 @@ def struck_ball(table: Table, strokes: ArrayLike) -> StruckBall:
     force = (1.0 + e_tip) * v / inverse
     forth, left = cosine - g * aside * sine, a * aside
     turn = 2.5 * force * turning
-    speed, off = force * np.hypot(forth, left), np.degrees(np.arctan2(left, forth))
-    return StruckBall(speed, off, turn * g, turn * a * cosine, turn * a * sine, slips)
+    velocity, spin = (force * forth, force * left), (turn * a * sine, turn * g)
+    if table.flies:
+        velocity, spin = _answered_by_cloth(table, velocity, force * (sine + g * aside * cosine), spin)
+    speed, off = np.hypot(*velocity), np.degrees(np.arctan2(velocity[1], velocity[0]))
+    return StruckBall(speed, off, spin[1], turn * a * cosine, spin[0], slips)
+
+
+def _answered_by_cloth(
+    table: Table, velocity: tuple[Floats, Floats], down: Floats, spin: tuple[Floats, Floats]
+) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
+    """Velocity and R times spin, each along the azimuth and to its left, after the blow `down` into the cloth (eq. 45)
+
+    m/s. A blow upwards meets no cloth.
+    """
+    assert isinstance(table, RealTable)
+    bounces = table.e_strike * down >= LIFT
+    push = np.maximum(0.0, np.where(bounces, 1.0 + table.e_strike, 1.0) * down)
+    along, across = velocity[0] - spin[1], velocity[1] + spin[0]
+    slip = np.hypot(along, across)
+    share = np.minimum(table.mu_slide * push, 2.0 / 7.0 * slip) / np.where(slip > 0.0, slip, 1.0)
+    return (
+        (velocity[0] - share * along, velocity[1] - share * across),
+        (spin[0] - 2.5 * share * across, spin[1] + 2.5 * share * along),
+    )
 
 
 def friction_between_balls(table: Table, slip: Floats) -> Floats:

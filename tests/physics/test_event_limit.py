@@ -45,6 +45,11 @@ def fingerprint():
     return total.hexdigest()
 
 
+def was_in_the_air(whole, event):
+    """Whether an event tells of a ball that is off the table because its shot was cut while it flew."""
+    return event.kind == "off_table" and whole.at(event.time).motion[event.ball] == physics.Motion.FLYING
+
+
 @pytest.mark.parametrize("name", PLAYS)
 def test_every_prefix_of_a_shot_is_its_beginning_and_ends_where_the_balls_are(name):
     """Events and times are those of the whole shot, and the balls lie where they were at the last of them."""
@@ -54,12 +59,13 @@ def test_every_prefix_of_a_shot_is_its_beginning_and_ends_where_the_balls_are(na
     for limit in limits(whole.n_events):
         result = physics.simulate(table, state, shot, event_limit=limit)
         assert result.n_events >= limit
-        assert list(result.events) == events[: result.n_events]
+        told = [event for event in result.events if not was_in_the_air(whole, event)]
+        assert told == events[: len(told)]
         if result.status is physics.Status.AT_REST:  # the last events are of one instant
             assert result.n_events == whole.n_events
             continue
         assert result.status is physics.Status.EVENT_LIMIT
-        assert result.duration == events[result.n_events - 1].time
+        assert result.duration == told[-1].time
         same_instant = whole.at(result.duration).positions
         on_table = ~np.isnan(result.final.positions[:, 0])
         moved = np.abs(result.final.positions - same_instant)[on_table]

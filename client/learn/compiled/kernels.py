@@ -372,7 +372,8 @@ def rule_break(game, facts, before, head):
     fell = went(facts, at.F_POCKETED)
     driven = 0
     for ball in range(1, at.LANES):
-        driven += int(facts[at.F_CUSHION + ball] != NEVER or facts[at.F_POCKETED + ball] != NEVER)
+        gone = facts[at.F_POCKETED + ball] != NEVER or facts[at.F_OFF_TABLE + ball] != NEVER
+        driven += int(gone or facts[at.F_CUSHION + ball] != NEVER)
     legal = fell or driven >= BALLS_TO_CUSHION
     missed = is_miscue(facts)
     scratched = not missed and (facts[at.F_POCKETED] != NEVER or facts[at.F_OFF_TABLE] != NEVER)
