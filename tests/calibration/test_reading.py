@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from typing import Any
 
 import numpy as np
 import pytest
@@ -37,7 +38,7 @@ def test_what_is_written_is_read(tmp_path):
 
 
 def test_json_says_the_same_as_csv(tmp_path):
-    data = {"length": "mm", "time": "s", "frame": "corner"}
+    data: dict[str, Any] = {"length": "mm", "time": "s", "frame": "corner"}
     samples = [[0.1 * n, 0, 500 + 10 * n, 1500] for n in range(6)]
     data["shots"] = [{"shot": "1", "samples": samples, "stroke": {"v": 2, "phi": 0}}]
     from_json = read(tmp_path, json.dumps(data), "paths.json").shots[0]
