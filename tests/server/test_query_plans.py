@@ -179,7 +179,7 @@ def read_lists(server: Serving, organiser: Any, table: Any) -> None:
         *(f"/v1/matches?{each}&status=finished" for each in of_matches),
         *("/v1/tournaments?", "/v1/tournaments?status=finished", "/v1/tournaments?search=cup"),
         *("/v1/agents?", "/v1/agents?house=true", "/v1/agents?search=player", "/v1/tokens?"),
-        *("/v1/keys?", "/metrics?", "/healthz?", "/readyz?", "/v1/agents/me?"),
+        *("/v1/keys?", "/v1/ladder?", "/metrics?", "/healthz?", "/readyz?", "/v1/agents/me?"),
     ):
         for page in ("", f"&cursor={place}"):
             assert server.request("GET", listed + page, organiser.token).status_code in (200, 403), listed
