@@ -168,7 +168,7 @@ def attempt_stacked(n: int) -> tuple[Row, list[Row]]:
         events.append(result.n_events)
         off += sum(event >= 0 for event in result.facts.off_table)
     line = {"class": "stacked", "shots": n, "followed": n, "events": sum(events), "most_events": max(events)}
-    return line | {"off_table": off, "faults": dict(+faults)}, failures
+    return line | {"off_table": off, "faults": dict(+faults), "other_bits_without_filter": None}, failures
 
 
 def count(found: dict[str, bool], kind: str, row: int, faults: Counter[str], failures: list[Row]) -> None:

@@ -67,8 +67,6 @@ def game_picture(page: Any, url: str, file: Path) -> None:
 def laboratory_picture(page: Any, url: str) -> None:
     """A shot, its paths, and where noise lets the balls rest."""
     page.goto(f"{url}/#/lab")
-    page.get_by_label("New here").fill("photographer")
-    page.get_by_role("button", name="Begin").click()
     page.get_by_label("Text", exact=True).fill(POSITION)
     page.get_by_role("button", name="Set up from the notation").click()
     for label, value in (("Direction, degrees", "264.9"), ("Cue speed, m/s", "2.6")):

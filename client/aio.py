@@ -92,6 +92,7 @@ class AsyncPooliad:
     simulate = _sent(calls.simulate)
     simulate_batch = _sent(calls.simulate_batch)
     min_elevation = _sent(calls.min_elevation)
+    ladder = _sent(calls.ladder)
     tables = _sent(calls.tables)
     table = _sent(calls.table)
     describe_table = _sent(calls.describe_table)

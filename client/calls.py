@@ -269,6 +269,11 @@ def min_elevation(
     return ApiCall("POST", "/v1/min-elevation", _reader(wire.MinElevationAnswer), body=_json(request), pure=True)
 
 
+def ladder() -> ApiCall[wire.Ladder]:
+    """The agents by what their rated games prove, the highest first."""
+    return ApiCall("GET", "/v1/ladder", _reader(wire.Ladder))
+
+
 def tables() -> ApiCall[wire.TableList]:
     """The named tables, each with its parameters and its lines and arcs (m)."""
     return ApiCall("GET", "/v1/tables", _reader(wire.TableList))

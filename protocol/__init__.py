@@ -4,6 +4,7 @@ from protocol.agents import AgentList, AgentRequest, AgentToken, AgentView
 from protocol.answers import MinimalAnswer, ShotsPage, StrokeAnswer
 from protocol.clocks import ChargeView, ClockLedger, ForfeitRequest, SeatLedger
 from protocol.keys import KeyList, KeyView
+from protocol.ladder import Ladder, RungView
 from protocol.matches import (
     AcceptRequest,
     ClientSeedRequest,
@@ -106,6 +107,7 @@ __all__ = [
     "JawView",
     "KeyList",
     "KeyView",
+    "Ladder",
     "ManyEvent",
     "MatchList",
     "MatchOver",
@@ -129,6 +131,7 @@ __all__ = [
     "RackView",
     "RatingView",
     "RulingView",
+    "RungView",
     "SeatLedger",
     "SeedWanted",
     "SequentialTestView",

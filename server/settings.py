@@ -21,6 +21,8 @@ SHORTEST_ORGANISER_TOKEN = 32
 """Characters. 32 hexadecimal digits are 128 bits, the least that no one guesses."""
 FLAGS = {"true": True, "1": True, "yes": True, "false": False, "0": False, "no": False}
 LOG_LEVELS = ("debug", "info", "warning", "error")
+ORIGIN = re.compile(r"\*|https?://(\*\.)?[A-Za-z0-9.-]+(:[0-9]{1,5})?", re.ASCII)
+"""An origin that may show the page in a frame."""
 REGISTRATIONS = ("open", "invited", "closed")
 
 
@@ -51,6 +53,7 @@ class Settings:
     database_seconds: float = setting(5.0, "a writer waits so long for an SQLite file that another process has locked")
     registration: str = setting("open", "who may register agents: `open`, `invited`, `closed`", one_of=REGISTRATIONS)
     public_reads: bool = setting(True, "whether games, lists and records are read without a token")
+    public_physics: bool = setting(True, "whether single shots are simulated without a token")
     token_seconds: float = setting(0.0, "how long agents' tokens are good for; 0: until revoked", zero=True)
     fetch_grace: float = setting(
         1.0, "given back of every turn for the wait until its player fetches it; 0: nothing", zero=True
@@ -84,6 +87,9 @@ class Settings:
     registration_rate: float = setting(0.2, "agents a second that one address registers; organisers are not counted")
     registration_burst: float = setting(100.0, "such registrations at once")
     proxies: str = setting("", "addresses or networks, apart by `,`, of proxies whose `X-Forwarded-For` is believed")
+    frame_ancestors: str = setting(
+        "", "pages, apart by `,`, that may show games in a frame, such as `https://example.org`; `*`: any"
+    )
     streams: int = setting(64, "streams of one token, or of one address without one, that may be open at once")
     polls: int = setting(64, "long polls of one token that may be open at once")
     answer_seconds: float = setting(
@@ -99,6 +105,7 @@ class Settings:
     def __post_init__(self) -> None:
         _require_database(self.database)
         _networks(self.proxies)
+        _origins(self.frame_ancestors)
         for each in settable():
             _check(each, getattr(self, each.name))
 
@@ -106,6 +113,11 @@ class Settings:
     def named_proxies(self) -> list[str]:
         """The addresses and networks of `proxies`, one by one."""
         return _networks(self.proxies)
+
+    @property
+    def framing_origins(self) -> list[str]:
+        """The pages of `frame_ancestors`, one by one."""
+        return _origins(self.frame_ancestors)
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str]) -> "Settings":
@@ -183,6 +195,15 @@ def _networks(text: str) -> list[str]:
             allowed = "IP addresses and networks, such as 10.0.0.2, 10.1.0.0/16"
             raise SettingsError(f"proxies = {text!r}: must be {allowed} ({error})") from error
     return named
+
+
+def _origins(text: str) -> list[str]:
+    """Origins as a content security policy takes them; whatever else stood there could change the policy."""
+    named = [each.strip() for each in text.split(",") if each.strip()]
+    if all(ORIGIN.fullmatch(each) for each in named):
+        return named
+    allowed = "origins such as https://example.org or http://*.example.org:8000, apart by ',', or *"
+    raise SettingsError(f"frame_ancestors = {text!r}: must be {allowed}")
 
 
 def without_password(url: str) -> str:

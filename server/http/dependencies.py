@@ -58,7 +58,15 @@ def _address(request: Request) -> str:
     return origin(request.client.host if request.client else None)
 
 
-def _simulating(caller: Annotated[Caller, Depends(_caller)]) -> Caller:
+def _simulating(request: Request) -> Caller:
+    if not context_of(request).settings.public_physics:
+        caller = _caller(request)
+        caller.require_player()
+        return caller
+    return _visitor(request) or Caller.stranger(_address(request))
+
+
+def _simulating_many(caller: Annotated[Caller, Depends(_caller)]) -> Caller:
     caller.require_player()
     return caller
 
@@ -77,7 +85,9 @@ def _reader(request: Request) -> Caller | None:
 Authenticated = Annotated[Caller, Depends(_caller)]
 """Somebody with a valid token; 401 for anybody else."""
 Simulating = Annotated[Caller, Depends(_simulating)]
-"""Somebody who plays or organises: may use the physics."""
+"""Whoever has single shots simulated: anybody, or who plays or organises, as the settings say."""
+SimulatingMany = Annotated[Caller, Depends(_simulating_many)]
+"""Somebody who plays or organises: may send batches."""
 Visitor = Annotated[Caller | None, Depends(_visitor)]
 """Somebody who needs no token; one that is sent must be valid all the same."""
 Address = Annotated[str, Depends(_address)]
@@ -128,6 +138,14 @@ async def _command(caller: Authenticated, request: Request) -> Command:
 
 Sent = Annotated[Command, Depends(_command)]
 """A state-changing request."""
+
+
+async def _simulation(caller: Simulating, request: Request) -> Command:
+    return _sent(request, caller)
+
+
+Simulation = Annotated[Command, Depends(_simulation)]
+"""A request for one simulated shot."""
 
 
 async def _move(request: Request) -> Move:

@@ -9,6 +9,7 @@ from server.routes import (
     games,
     health,
     keys,
+    ladder,
     matches,
     page,
     physics,
@@ -21,6 +22,7 @@ from server.routes import (
 
 ROUTERS: Final[tuple[APIRouter, ...]] = (
     agents.router,
+    ladder.router,
     matches.router,
     tournaments.router,
     turns.router,

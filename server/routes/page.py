@@ -3,6 +3,8 @@
 import hashlib
 import json
 import mimetypes
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -10,29 +12,39 @@ from typing import Final
 
 from fastapi import APIRouter, FastAPI, Request, Response
 
-from physics import Table
+from physics import Table, rack
 from physics.table import NAMED
 from protocol import TableDescription
 from referee.game import RULES
 from server.errors import NotFound
+from server.http.dependencies import context_of
 from server.reference import reference
+from tournament.luck import VALUE
 
 router = APIRouter(include_in_schema=False)
 
 HOME: Final = "index.html"
+MAIN: Final = "main.js"
+HEAD_END: Final = b"\n  </head>"
+IMPORT: Final = re.compile(rb'^(?:import|\} from) [^;]*"\./([a-z_]+\.js)";', re.MULTILINE)
 RULES_FILE: Final = "rules.json"
 TABLES_FILE: Final = "tables.json"
+RACKS_FILE: Final = "racks.json"
+VALUE_FILE: Final = "value.json"
+RACKS: Final = 10
+"""Racks of each named table that the laboratory offers, by their seeds from 0."""
 TYPES: Final = {
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
     ".css": "text/css; charset=utf-8",
 }
+ALONE: Final = "frame-ancestors 'none'"
 POLICY: Final = (
     *("default-src 'none'", "script-src 'self'", "style-src 'self'", "img-src 'self'", "connect-src 'self'"),
-    *("base-uri 'none'", "form-action 'none'", "frame-ancestors 'none'"),
+    *("base-uri 'none'", "form-action 'none'", ALONE),
     *("require-trusted-types-for 'script'", "trusted-types 'none'"),
 )
-"""Nothing is loaded from anywhere else, no markup is made from text, nobody puts the page in a frame."""
+"""Nothing is loaded from anywhere else, no markup is made from text, nobody shows it in a frame unless allowed to."""
 HEADERS: Final = {
     "Content-Security-Policy": "; ".join(POLICY),
     "Referrer-Policy": "no-referrer",
@@ -60,19 +72,39 @@ class File:
 
 @cache
 def page_files() -> dict[str, File]:
-    """All files of `server/web`, by name, the referee's rules, and the named tables, which even records need."""
+    """All files of `server/web`, by name, the referee's rules, the named tables, which even records need, and racks."""
     found = [one for one in files("server").joinpath("web").iterdir() if one.is_file()]
     contents = {one.name: one.read_bytes() for one in found}
     contents[RULES_FILE] = json.dumps(dict(RULES)).encode()
     described = {name: TableDescription.of(Table.named(name)).model_dump(mode="json") for name in NAMED}
     contents[TABLES_FILE] = json.dumps(described).encode()
+    racked = {name: [rack(Table.named(name), seed=seed).to_dict() for seed in range(RACKS)] for name in NAMED}
+    contents[VALUE_FILE] = json.dumps({"source": VALUE.source, "weights": dict(VALUE.weights)}).encode()
+    contents[RACKS_FILE] = json.dumps(racked).encode()
+    contents[HOME] = contents[HOME].replace(HEAD_END, _preloads(contents) + HEAD_END)
     return {name: File.of(name, content) for name, content in contents.items()}
 
 
+def _preloads(contents: Mapping[str, bytes]) -> bytes:
+    """Links by which a browser asks at once for every script that the first one imports, and for the tables."""
+    needed, names = [MAIN], [MAIN]
+    while names:
+        found = [match.decode() for match in IMPORT.findall(contents[names.pop()])]
+        fresh = [name for name in dict.fromkeys(found) if name not in needed]
+        needed, names = needed + fresh, names + fresh
+    links = [f'<link rel="modulepreload" href="/web/{name}">' for name in needed]
+    links.append(f'<link rel="preload" href="/web/{TABLES_FILE}" as="fetch" crossorigin>')
+    return "\n    ".join(["", *links]).encode()
+
+
 @router.get("/")
-def home(request: Request) -> Response:
-    """The page."""
-    return _served(request, HOME)
+async def home(request: Request) -> Response:
+    """The page; the one file that may be shown in a frame, by those whom the settings name."""
+    answer = _served(request, HOME)
+    if named := context_of(request).settings.framing_origins:
+        policy = HEADERS["Content-Security-Policy"].replace(ALONE, f"frame-ancestors {' '.join(named)}")
+        answer.headers["Content-Security-Policy"] = policy
+    return answer
 
 
 @router.get("/docs")
@@ -87,7 +119,7 @@ def _interface(app: FastAPI) -> File:
 
 
 @router.get("/web/{name}")
-def part(name: str, request: Request) -> Response:
+async def part(name: str, request: Request) -> Response:
     """A script, the style sheet, the rules in words."""
     return _served(request, name)
 

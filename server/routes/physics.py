@@ -16,9 +16,9 @@ from protocol import (
     SimulateAnswer,
     SimulateRequest,
 )
-from server.errors import BudgetSpent, Forbidden, GameFinished
+from server.errors import BudgetSpent, Forbidden, GameFinished, Unauthorized
 from server.http.commands import Command, parse, parse_body
-from server.http.dependencies import Body, ContentType, ContextDep, Sent, Simulating
+from server.http.dependencies import Body, ContentType, ContextDep, Sent, Simulating, SimulatingMany, Simulation
 from server.http.describe import OWNED, describe
 from server.services.physics import simulations
 from server.services.play import budget
@@ -32,10 +32,16 @@ router = APIRouter(prefix="/v1", tags=["physics"])
 
 @router.post(
     "/simulate",
-    **describe(*GAME_PROBLEMS, body=SimulateRequest, success={200: SimulateAnswer}, optional_key=True),
+    **describe(
+        *(*GAME_PROBLEMS, Unauthorized),
+        body=SimulateRequest,
+        success={200: SimulateAnswer},
+        optional_key=True,
+        token=False,
+    ),
     summary="Simulate one shot",
 )
-async def simulate(context: ContextDep, _caller: Simulating, command: Sent) -> Response:
+async def simulate(context: ContextDep, command: Simulation) -> Response:
     """A shot that cannot be played is an answer too; its status says why. With `game` an Idempotency-Key is needed."""
 
     def work() -> SimulateAnswer:
@@ -53,7 +59,7 @@ async def simulate(context: ContextDep, _caller: Simulating, command: Sent) -> R
     **describe(*GAME_PROBLEMS, body=BatchRequest, success={200: BatchAnswer}, optional_key=True),
     summary="Simulate many shots",
 )
-async def simulate_batch(context: ContextDep, _caller: Simulating, command: Sent) -> Response:
+async def simulate_batch(context: ContextDep, _caller: SimulatingMany, command: Sent) -> Response:
     """From one position, or each from its own. With `game` an Idempotency-Key is needed."""
     return await _answered(context, lambda: _batch(context, command))
 
@@ -69,7 +75,7 @@ def _batch(context: Context, command: Command) -> BatchAnswer:
 
 @router.post(
     "/min-elevation",
-    **describe(Forbidden, body=MinElevationRequest, success={200: MinElevationAnswer}),
+    **describe(Forbidden, Unauthorized, body=MinElevationRequest, success={200: MinElevationAnswer}, token=False),
     summary="The least elevation of a free cue",
 )
 async def min_elevation(

@@ -45,6 +45,16 @@ class Caller:
         """Whoever has the token of the settings: may do everything but play."""
         return cls(ORGANISER, token, ORGANISERS)
 
+    @classmethod
+    def stranger(cls, address: str) -> "Caller":
+        """Whoever comes without a token, by address: may do what needs none."""
+        return cls(address, "", frozenset())
+
+    @property
+    def is_stranger(self) -> bool:
+        """Whether it came without a token."""
+        return not self.scopes
+
     @property
     def is_organiser(self) -> bool:
         """Whether it may do what organisers do."""

@@ -1,4 +1,4 @@
-/** Requests to the server this page came from, and the token of whoever signed in, kept for the tab. */
+/** Requests to the server this page came from, and the token of the player: kept for the tab, or on this device. */
 
 const TOKEN = "pooliad.token";
 const AGENT = "pooliad.agent";
@@ -15,26 +15,45 @@ export class ProblemError extends Error {
 
 /** @typedef {{id: string, name: string}} Identity */
 
-/** @returns {Identity | null} who is signed in */
+/** @returns {Identity | null} the player who is signed in */
 export function identity() {
-  const kept = sessionStorage.getItem(AGENT);
+  const kept = stored(AGENT);
   return kept && token() ? JSON.parse(kept) : null;
 }
 
 /** @returns {string | null} */
 export function token() {
-  return sessionStorage.getItem(TOKEN);
+  return stored(TOKEN);
 }
 
-/** @param {string} newToken @param {Identity} agent */
-export function signIn(newToken, agent) {
-  sessionStorage.setItem(TOKEN, newToken);
-  sessionStorage.setItem(AGENT, JSON.stringify(agent));
+/** Whether the page is shown within another one, which must not act for a player: it could lead clicks astray. */
+export function isEmbedded() {
+  return window.top !== window.self;
 }
 
+/** The tab's own player goes before the device's: two tabs may play against each other. */
+function stored(name) {
+  if (isEmbedded()) return null;
+  const here = sessionStorage.getItem(TOKEN) ? sessionStorage : localStorage;
+  return here.getItem(name);
+}
+
+/** @param {string} newToken @param {Identity} agent @param {boolean} keep on this device, until somebody signs out */
+export function signIn(newToken, agent, keep) {
+  for (const store of keep ? [sessionStorage, localStorage] : [sessionStorage]) {
+    store.setItem(TOKEN, newToken);
+    store.setItem(AGENT, JSON.stringify(agent));
+  }
+}
+
+/** Forget the player, on the device too when it is the one that is kept there. */
 export function signOut() {
-  sessionStorage.removeItem(TOKEN);
-  sessionStorage.removeItem(AGENT);
+  const gone = token();
+  for (const store of [sessionStorage, localStorage]) {
+    if (store.getItem(TOKEN) !== gone) continue;
+    store.removeItem(TOKEN);
+    store.removeItem(AGENT);
+  }
 }
 
 /**

@@ -62,12 +62,13 @@ export function labelled(label, control) {
 const SAID = 6000;
 let silence = 0;
 
-/** Say something to everybody, readers of the screen included. @param {string} text */
-export function announce(text) {
+/** Say something to everybody, readers of the screen included; quietly: to them alone. @param {string} text */
+export function announce(text, quietly = false) {
   const status = document.getElementById("status");
   if (!status) return;
   clearTimeout(silence);
   status.textContent = text;
+  status.classList.toggle("quiet", quietly);
   silence = setTimeout(() => { status.textContent = ""; }, SAID);
 }
 

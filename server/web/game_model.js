@@ -18,6 +18,8 @@ export class GameModel {
     /** @type {any} */
     this.result = null;
     this.score = [0, 0];
+    /** Told, but not to be shown yet: clocks and result of what has not been seen. @type {{clocks?: any, toldAt?: number, result?: any}} */
+    this.news = {};
     /** @type {Record<string, any> | null} the referee's state before the first entry */
     this.first = null;
     /** When the clocks were told, on the reader's own clock, ms. */
@@ -29,7 +31,7 @@ export class GameModel {
     const { view } = game;
     const { players, table, noise, number, games, match, balls, groups, turn } = view;
     const made = new GameModel({ id: game.id, players, table, noise, number, games, match, balls });
-    made.first = { state: balls, groups, turn };
+    made.first = { state: balls, groups, turn, phase: view.phase, cue_ball_in_hand: view.cue_ball_area?.name ?? null };
     made.score = view.score;
     return made;
   }
@@ -60,14 +62,26 @@ export class GameModel {
     if (kind === "stroke" || kind === "decision") {
       if (data.entry === this.entries.length) this.entries.push(data);
     } else if (kind === "clocks") {
-      this.clocks = data;
-      this.toldAt = performance.now();
+      this.news = { ...this.news, clocks: data, toldAt: performance.now() };
     } else if (kind === "connections") {
       this.connected = data.connected;
     } else if (kind === "result") {
-      this.result = data;
-      if (data.score) this.score = data.score;
+      this.news = { ...this.news, result: data };
     }
+  }
+
+  /** Everything that led to the news has been seen: they are no secret any more. @returns {boolean} whether the game is over by them */
+  settle() {
+    const { result } = this.news;
+    Object.assign(this, this.news);
+    this.news = {};
+    if (result?.score) this.score = result.score;
+    return Boolean(result);
+  }
+
+  /** Whether the game has a result, shown or not. */
+  get isOver() {
+    return this.result !== null || Boolean(this.news.result);
   }
 
   get players() {

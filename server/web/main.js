@@ -1,5 +1,6 @@
 /** The page: an address after the hash shows a view; a record dropped anywhere is opened. */
 
+import { isEmbedded } from "./api.js";
 import { announce, el, fill } from "./dom.js";
 import { loadTables } from "./tables.js";
 import { AgentView } from "./view_agent.js";
@@ -17,12 +18,21 @@ const ROUTES = [
   { at: /^\/?$/, page: "lobby", make: () => opened(new LobbyView(), (view) => view.open()) },
   {
     at: /^\/games\/([\w.:-]+)(?:\/strokes\/(\d+))?$/, page: "lobby",
-    make: ([, game, stroke]) => opened(new GameView(), (view) => view.watch(game, stroke === undefined ? null : Number(stroke))),
+    make: ([, game, stroke]) => opened(new GameView(), (view) => {
+      view.goesOn = (next) => { location.hash = `#/games/${next}`; };
+      view.watch(game, stroke === undefined ? null : Number(stroke));
+    }),
   },
   { at: /^\/matches\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new MatchView(), (view) => view.open(id)) },
   { at: /^\/tournaments\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new TournamentView(), (view) => view.open(id)) },
-  { at: /^\/play$/, page: "play", make: async () => opened(new (await import("./view_play.js")).PlayView(), (view) => view.open()) },
-  { at: /^\/lab$/, page: "lab", make: async () => opened(new (await import("./view_lab.js")).LabView(), (view) => view.open()) },
+  {
+    at: /^\/play(?:\/([\w.:-]+))?$/, page: "play",
+    make: async ([, game]) => opened(new (await import("./view_play.js")).PlayView(), (view) => view.open(game ?? null)),
+  },
+  {
+    at: /^\/lab(?:\?(.*))?$/, page: "lab",
+    make: async ([, query]) => opened(new (await import("./view_lab.js")).LabView(), (view) => view.open(query ?? "")),
+  },
   { at: /^\/agents\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new AgentView(), (view) => view.open(id)) },
 ];
 
@@ -76,6 +86,15 @@ async function openRecord(file) {
   }
 }
 
+/** The colours chosen before; nothing where the browser lets nobody remember, as in a frame of another page. */
+function chosenBefore() {
+  try {
+    return localStorage.getItem("pooliad.theme");
+  } catch {
+    return null;
+  }
+}
+
 function theme() {
   const button = /** @type {HTMLElement} */ (document.getElementById("theme"));
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -90,8 +109,8 @@ function theme() {
     localStorage.setItem("pooliad.theme", chosen);
     apply(chosen);
   });
-  dark.addEventListener("change", () => apply(localStorage.getItem("pooliad.theme")));
-  apply(localStorage.getItem("pooliad.theme"));
+  dark.addEventListener("change", () => apply(chosenBefore()));
+  apply(chosenBefore());
 }
 
 addEventListener("hashchange", route);
@@ -108,5 +127,6 @@ document.getElementById("skip")?.addEventListener("click", (event) => {
   event.preventDefault();
   main.focus();
 });
+document.documentElement.classList.toggle("embedded", isEmbedded());
 theme();
 loadTables().then(route);

@@ -19,10 +19,11 @@ export class Preview {
    * @param {Record<string, any>} table @param {import("./trace.js").Balls} balls
    * @param {import("./shot_form.js").Shot} shot
    * @param {boolean} lowest whether the cue is to be raised only as far as it must
+   * @param {boolean} [simulated] whether the balls are to be followed as well
    */
-  ask(table, balls, shot, lowest) {
+  ask(table, balls, shot, lowest, simulated = true) {
     this.cancel();
-    this.timer = setTimeout(() => this.send(table, balls, shot, lowest), PAUSE);
+    this.timer = setTimeout(() => this.send(table, balls, shot, lowest, simulated), PAUSE);
   }
 
   cancel() {
@@ -30,7 +31,7 @@ export class Preview {
     this.latest.withdraw();
   }
 
-  async send(table, balls, shot, lowest) {
+  async send(table, balls, shot, lowest, simulated) {
     const signal = this.latest.ask();
     const post = (path, body) => call("POST", path, { body, signal });
     try {
@@ -38,6 +39,7 @@ export class Preview {
       const elevation = lowest ? (await post("/v1/min-elevation", { table, balls, phi, a, b })).theta : shot.theta;
       if (elevation === null) return this.show(null, null, "The cue cannot get at the ball from here.");
       const theta = lowest ? Math.min(table.theta_max, Math.ceil(elevation * 10) / 10 + 0.5) : elevation;
+      if (!simulated) return this.show(null, theta, "");
       const answer = await post("/v1/simulate", { table, balls, shot: { ...shot, theta }, trace: true });
       this.show(answer, theta, answer.status === "at_rest" ? "" : answer.reason);
     } catch (error) {

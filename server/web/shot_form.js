@@ -9,9 +9,11 @@ import { BALL_RADIUS } from "./motion.js";
 const REACH = Math.floor(BALL_RADIUS * 1000 * 0.75);
 
 export class ShotForm {
-  /** @param {() => void} changed */
+  /** @param {(byHand: Partial<Shot>) => void} changed told what somebody has set, of what changed */
   constructor(changed) {
     this.changed = changed;
+    /** @type {SVGElement[]} where the tip is, on every picture of the cue ball */
+    this.dots = [];
     /** @type {Shot} */
     this.shot = { v: 2, phi: 270, theta: 5, a: 0, b: 0 };
     this.fields = {
@@ -21,8 +23,7 @@ export class ShotForm {
       a: this.field("a", "Side, mm (right is positive)", -REACH, REACH, 0.5),
       b: this.field("b", "Height, mm (up is positive)", -REACH, REACH, 0.5),
     };
-    this.dot = shape("circle", { r: 5, class: "dot", fill: "#b3202c" });
-    this.picture = this.cueBall();
+    this.picture = this.cueBall(120);
     this.element = el("fieldset", { class: "panel shot-form" }, el("legend", {}, "Shot"),
       this.fields.phi.element, this.fields.v.element, this.fields.theta.element,
       el("div", { class: "picker" }, this.picture, el("div", {}, this.fields.a.element, this.fields.b.element)));
@@ -30,7 +31,7 @@ export class ShotForm {
   }
 
   field(name, label, least, most, step) {
-    const set = (event) => this.set({ [name]: Number(/** @type {HTMLInputElement} */ (event.target).value) });
+    const set = (event) => this.set({ [name]: Number(/** @type {HTMLInputElement} */ (event.target).value) }, true);
     const slider = /** @type {HTMLInputElement} */ (el("input", {
       type: "range", min: least, max: most, step, oninput: set, "aria-label": `${label}, slider`,
     }));
@@ -38,14 +39,9 @@ export class ShotForm {
     return { slider, number, element: el("div", { class: "number-field" }, labelled(label, number), slider) };
   }
 
-  /** The cue ball as the player sees it: a click puts the tip there; keys do it by the two numbers. */
-  cueBall() {
-    const picture = shape("svg", { viewBox: "-50 -50 100 100", width: 120, height: 120, "aria-hidden": "true" });
-    picture.append(
-      shape("circle", { r: 48, fill: "#f4f0e4", stroke: "#555" }),
-      shape("path", { d: "M-48 0H48M0 -48V48", stroke: "#bbb" }),
-      this.dot,
-    );
+  /** The cue ball as the player sees it: a touch puts the tip there; keys do it by the two numbers. @param {number} size px */
+  cueBall(size) {
+    const picture = this.cueBallToSee(size);
     const pick = (event) => {
       if (!event.buttons) return;
       const box = picture.getBoundingClientRect();
@@ -59,13 +55,21 @@ export class ShotForm {
     return picture;
   }
 
-  /** Change some of the parameters. @param {Partial<Shot>} changes */
-  set(changes) {
+  /** The same, to look at. @param {number} size px */
+  cueBallToSee(size) {
+    const dot = shape("circle", { r: size < 60 ? 9 : 5, class: "dot", fill: "#b3202c" });
+    this.dots.push(dot);
+    return shape("svg", { viewBox: "-50 -50 100 100", width: size, height: size, "aria-hidden": "true" },
+      shape("circle", { r: 48, fill: "#f4f0e4", stroke: "#555" }), shape("path", { d: "M-48 0H48M0 -48V48", stroke: "#bbb" }), dot);
+  }
+
+  /** Change some of the parameters. @param {Partial<Shot>} changes @param {boolean} [byHand] in a field of their own */
+  set(changes, byHand = false) {
     for (const [name, value] of Object.entries(changes)) {
       if (Number.isFinite(value)) this.shot = { ...this.shot, [name]: this.allowed(name, value) };
     }
     this.write();
-    this.changed();
+    this.changed(byHand ? changes : {});
   }
 
   /** Take the ranges of a table. @param {{v_max: number, theta_max: number}} table */
@@ -99,8 +103,10 @@ export class ShotForm {
   write() {
     for (const name of Object.keys(this.fields)) this.writeField(name);
     const scale = 48 / (BALL_RADIUS * 1000);
-    this.dot.setAttribute("cx", String(this.shot.a * scale));
-    this.dot.setAttribute("cy", String(-this.shot.b * scale));
+    for (const dot of this.dots) {
+      dot.setAttribute("cx", String(this.shot.a * scale));
+      dot.setAttribute("cy", String(-this.shot.b * scale));
+    }
   }
 }
 

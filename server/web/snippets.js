@@ -22,6 +22,33 @@ export function readNotation(text) {
   return balls;
 }
 
+/**
+ * The address of the laboratory with a position and a shot in it.
+ * @param {string} table its name @param {Balls} balls @param {Shot} [shot]
+ * @param {boolean} [lowest] the cue stays as low as it can be
+ */
+export function labAddress(table, balls, shot, lowest = false) {
+  const aim = shot ? `&shot=${[shot.v, shot.phi, shot.theta, shot.a, shot.b].join(",")}${lowest ? "&lowest" : ""}` : "";
+  return `#/lab?table=${encodeURIComponent(table)}&balls=${notation(balls).replaceAll(" ", "+")}${aim}`;
+}
+
+/**
+ * What an address of the laboratory says.
+ * @param {string} query @returns {{table: string | null, balls: Balls | null, shot: Shot | null, rack: number | null, lowest: boolean}} @throws {Error} in words
+ */
+export function readAddress(query) {
+  const asked = new URLSearchParams(query);
+  const shot = asked.get("shot")?.split(",").map(Number);
+  if (shot && !(shot.length === 5 && shot.every(Number.isFinite))) throw new Error("The address has no shot: five numbers v,phi,theta,a,b.");
+  const [v, phi, theta, a, b] = shot ?? [];
+  const rack = asked.get("rack");
+  if (rack !== null && !/^\d$/.test(rack)) throw new Error("The address has no rack: a number from 0 to 9.");
+  return {
+    table: asked.get("table"), balls: asked.has("balls") ? readNotation(asked.get("balls") ?? "") : null,
+    shot: shot ? { v, phi, theta, a, b } : null, lowest: asked.has("lowest"), rack: rack === null ? null : Number(rack),
+  };
+}
+
 /** @param {Balls} balls @param {Shot} shot @param {string} table its name */
 export function asJson(balls, shot, table) {
   return JSON.stringify({ table, balls, shot, trace: true });

@@ -4,6 +4,7 @@ import { el, fill } from "./dom.js";
 import { BALL_RADIUS, isOnTable } from "./motion.js";
 import { Orientations } from "./orientation.js";
 import { Playback, reducedMotion } from "./playback.js";
+import { Projection } from "./projection.js";
 import { TablePicture } from "./table_picture.js";
 import { contactDistance } from "./tables.js";
 import { Trace, traceOf } from "./trace.js";
@@ -23,6 +24,7 @@ export class Stage {
    * @param {{ended?: () => void, moved?: (time: number) => void}} [told]
    */
   constructor({ ended = () => {}, moved = () => {} } = {}) {
+    this.playWord = "Play";
     this.moved = moved;
     this.canvas = /** @type {HTMLCanvasElement} */ (el("canvas", { role: "img", "aria-label": "The table" }));
     this.holder = el("div", { class: "table" }, this.canvas);
@@ -42,7 +44,10 @@ export class Stage {
     this.turned = new Map();
     /** @type {(scene: import("./table_picture.js").Scene) => void} what a page adds to the scene */
     this.decorate = () => {};
-    this.element = el("section", { class: "stage", "aria-label": "Table" }, this.holder, this.controls());
+    /** Called when another stroke, or none, is on the table. */
+    this.changed = () => {};
+    this.replay = this.controls();
+    this.element = el("section", { class: "stage", "aria-label": "Table" }, this.holder, this.replay);
     this.observer = new ResizeObserver(() => this.fit());
     this.observer.observe(this.holder);
   }
@@ -71,13 +76,21 @@ export class Stage {
     this.fit();
   }
 
+  /** As large as there is room, turned whichever way that is. */
   fit() {
     if (!this.picture || !this.holder.clientWidth) return;
-    const width = this.holder.clientWidth;
-    const height = Math.max(280, window.innerHeight * 0.66);
-    this.picture.lying = width > 1.1 * height;
+    const { clientWidth: width, clientHeight } = this.holder;
+    const height = this.fills ? clientHeight : Math.max(280, window.innerHeight * 0.66);
+    if (!height) return;
+    const scale = (lying) => new Projection(this.picture.table, width, height, lying).scale;
+    this.picture.lying = scale(true) > scale(false);
     this.picture.fit(width, height);
     this.redraw();
+  }
+
+  /** Whether the table has a place of a size of its own to fill. */
+  get fills() {
+    return this.holder.classList.contains("fills");
   }
 
   /** Show balls at rest. @param {import("./trace.js").Balls} balls */
@@ -86,6 +99,8 @@ export class Stage {
     this.balls = balls;
     this.playback.load(0, 0);
     this.redraw();
+    this.showPlaying();
+    this.changed();
   }
 
   /**
@@ -109,6 +124,7 @@ export class Stage {
     else if (play && !reducedMotion()) this.playback.play();
     this.redraw();
     this.showPlaying();
+    this.changed();
   }
 
   /** Lay the same stroke, played otherwise, over the picture. @param {Record<string, any> | null} answer of a simulation */
@@ -125,7 +141,7 @@ export class Stage {
   }
 
   showPlaying() {
-    fill(this.playButton, this.playback.playing ? "Pause" : "Play");
+    fill(this.playButton, this.playback.playing ? "Pause" : this.playWord);
   }
 
   /** @param {number} time */

@@ -1,6 +1,6 @@
 /** The strokes of a game as a list to choose from. */
 
-import { el } from "./dom.js";
+import { el, fill } from "./dom.js";
 import { describeAction } from "./words.js";
 
 export class StrokeList {
@@ -11,19 +11,34 @@ export class StrokeList {
     this.element = el("nav", { class: "stroke-list", "aria-label": "Strokes" }, el("h2", {}, "Strokes"), this.list);
     /** @type {HTMLElement[]} */
     this.rows = [];
+    /** @type {HTMLElement[]} by stroke */
+    this.tags = [];
+    /** Of how many strokes it is told what came of them. */
+    this.told = 0;
   }
 
-  /** @param {import("./game_model.js").GameModel} model */
-  update(model) {
-    for (let place = this.rows.length; place < model.entries.length; place++) {
+  /**
+   * List so many strokes, and what came of them.
+   * @param {import("./game_model.js").GameModel} model
+   * @param {number} count strokes to be listed @param {number} rolling the last one, if its balls still roll: nothing is said of it
+   */
+  update(model, count = model.entries.length, rolling = -1) {
+    for (let place = this.rows.length; place < count; place++) {
       const entry = model.entries[place];
-      const said = entry.ruling.fouls.length ? "foul" : entry.ruling.made ? "made" : "";
+      const tags = el("span", { class: "tags" });
       const button = el("button", { type: "button", class: "row", onclick: () => this.choose(place) },
-        el("span", { class: "count" }, place), " ", el("span", {}, el("span", { class: "who" }, model.players[entry.seat]), " ",
-          describeAction(entry)), " ", entry.miscue && el("span", { class: "tag" }, "miscue"), " ", said && el("span", { class: `tag ${said}` }, said));
+        el("span", { class: "count" }, place), " ", el("span", {}, el("span", { class: "who" }, model.players[entry.seat]), " ", describeAction(entry)), " ", tags);
       this.rows.push(button);
       this.list.append(el("li", {}, button));
+      this.tags.push(tags);
     }
+    for (; this.told < this.rows.length && this.told !== rolling; this.told++) this.tell(this.tags[this.told], model.entries[this.told]);
+  }
+
+  /** What came of a stroke. @param {HTMLElement} tags @param {Record<string, any>} entry */
+  tell(tags, entry) {
+    const said = entry.ruling.fouls.length ? "foul" : entry.ruling.made ? "made" : "";
+    fill(tags, entry.miscue && el("span", { class: "tag" }, "miscue"), " ", said && el("span", { class: `tag ${said}` }, said));
   }
 
   /** @param {number} place */

@@ -32,6 +32,13 @@ export class StrokeStory {
     fill(this.rules, entry.ruling.rules.map((rule) => this.ruleRow(entry, rule, sentences[rule])));
   }
 
+  /** A stroke that still rolls. @param {string} words */
+  await(words) {
+    this.entry = null;
+    fill(this.sentence, words);
+    for (const part of [this.rules, this.shot, this.events]) fill(part);
+  }
+
   shotRows(entry, players) {
     const rows = [["player", players[entry.seat]], ["called", describeAction(entry)]];
     if (entry.shot) rows.push(["meant", describeShot(entry.action.shot)], ["played", describeShot(entry.shot)]);

@@ -14,6 +14,7 @@ import { askShape, shapeOf } from "./tables.js";
  * @property {[number, number][]} points on the table, m
  * @property {string} colour
  * @property {number} [width] CSS pixels @property {number[]} [dash] @property {number} [alpha]
+ * @property {boolean} [filled] the area within it as well
  */
 /**
  * @typedef {object} Cue
@@ -70,7 +71,8 @@ export class TablePicture {
   fit(width, height) {
     const projection = new Projection(this.table, width, height, this.lying);
     const density = Math.min(2, window.devicePixelRatio || 1);
-    if (projection.width === this.projection.width && density === this.density && this.canvas.width > 1) return;
+    const same = projection.lying === this.projection.lying && projection.width === this.projection.width;
+    if (same && density === this.density && this.canvas.width > 1) return;
     this.projection = projection;
     this.density = density;
     this.canvas.width = Math.max(1, Math.round(projection.width * density));
@@ -113,7 +115,7 @@ export class TablePicture {
   }
 
   /** @param {Line} line */
-  drawLine({ points, colour, width = 1.5, dash = [], alpha = 1 }) {
+  drawLine({ points, colour, width = 1.5, dash = [], alpha = 1, filled = false }) {
     if (points.length < 2) return;
     const { context, projection } = this;
     context.save();
@@ -126,6 +128,8 @@ export class TablePicture {
       if (place === 0) context.moveTo(...projection.place(x, y));
       else context.lineTo(...projection.place(x, y));
     });
+    context.fillStyle = colour;
+    if (filled) context.fill();
     context.stroke();
     context.restore();
   }

@@ -58,6 +58,12 @@ export function describeTable(table) {
   return tableTitle(table.name) + (own.length ? `, own ${own.map((key) => key.replaceAll("_", " ")).join(", ")}` : "");
 }
 
+/** Whether a table is exactly the one of its name. @param {Record<string, any>} table */
+export function isNamed(table) {
+  const usual = named[table.name]?.table;
+  return Boolean(usual) && Object.keys(usual).every((key) => usual[key] === table[key]);
+}
+
 /** @param {Record<string, any>} table */
 export function hasJaws(table) {
   return table.horn_radius !== undefined;

@@ -27,6 +27,8 @@ export class Thumbnail {
     /** @type {import("./trace.js").Balls} */
     this.balls = {};
     this.visible = true;
+    /** What is said of the last stroke, or of the result. */
+    this.told = "";
   }
 
   /** @param {string} kind @param {any} data */
@@ -40,10 +42,16 @@ export class Thumbnail {
       fill(this.words, named(data.view.why, this.model.players));
     } else if (this.model && (kind === "stroke" || kind === "decision")) {
       this.play(data);
-      fill(this.words, named(data.ruling.words, this.model.players));
+      this.tell(named(data.ruling.words, this.model.players));
     } else if (this.model && kind === "result") {
-      fill(this.words, describeOutcome(data.outcome, this.model.players));
+      this.tell(describeOutcome(data.outcome, this.model.players));
     }
+  }
+
+  /** Say something, once the balls that led to it have come to rest before whoever looks. @param {string} words */
+  tell(words) {
+    this.told = words;
+    if (!this.trace || !this.visible) fill(this.words, words);
   }
 
   /** @param {Record<string, any>} entry */
@@ -72,6 +80,7 @@ export class Thumbnail {
     const time = (now - this.began) / 1000;
     if (time >= this.trace.duration) {
       this.rest(this.after);
+      fill(this.words, this.told);
       return false;
     }
     const balls = new Map();

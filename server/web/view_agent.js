@@ -2,6 +2,7 @@
 
 import { get } from "./api.js";
 import { el, fill } from "./dom.js";
+import { placeOf } from "./ladder.js";
 import { matchRow } from "./match_row.js";
 import { PagedList } from "./paged.js";
 
@@ -20,7 +21,7 @@ export class AgentView {
     const seen = matches.find((match) => match.agents.includes(id));
     const name = seen ? seen.players[seen.agents.indexOf(id)] : id;
     const list = new PagedList({ title: "Matches", path, member: "matches", row: matchRow, empty: "No match yet." });
-    fill(this.element, el("h1", {}, name), headToHead(matches.filter((match) => match.rated), id), list.element);
+    fill(this.element, el("h1", {}, name), await placeOf(id), headToHead(matches.filter((match) => match.rated), id), list.element);
     await list.load();
   }
 

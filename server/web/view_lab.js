@@ -1,6 +1,6 @@
 /** The laboratory: any position, any shot; what it does, how far noise spreads it, and how to say it elsewhere. */
 
-import { ProblemError, call, identity } from "./api.js";
+import { ProblemError, call, token } from "./api.js";
 import { announce, el, fill, labelled } from "./dom.js";
 import { handle } from "./handling.js";
 import { density, heatPainter, noisy } from "./heat.js";
@@ -8,14 +8,19 @@ import { Latest } from "./latest.js";
 import { mayLie } from "./placement.js";
 import { Preview } from "./preview.js";
 import { ShotForm } from "./shot_form.js";
-import { signInPanel } from "./sign_in.js";
-import { asCurl, asJson, asPython, notation, readNotation } from "./snippets.js";
+import { addSight } from "./sight.js";
+import { asCurl, asJson, asPython, labAddress, notation, readAddress, readNotation } from "./snippets.js";
 import { Stage, cueOf } from "./stage.js";
 import { namedTable, tableNames, tableTitle } from "./tables.js";
 import { Trace } from "./trace.js";
 import { POCKETS, ballName, describeEvent } from "./words.js";
 
 const VARIANTS = 200;
+/** Variants at once for those without a token, who may not send them in one request. */
+const AT_ONCE = 8;
+/** Time after the last change before the address follows, ms. */
+const PAUSE = 300;
+const RACKS = 10;
 const START = { 0: [0.5, 1.7], 3: [0.4, 0.6], 8: [0.7, 0.9] };
 const WRITERS = {
   Notation: (balls) => notation(balls),
@@ -43,11 +48,9 @@ export class LabView {
     this.typed = false;
   }
 
-  open() {
-    if (!identity()) {
-      return fill(this.element, el("h1", {}, "Laboratory"),
-        el("p", {}, "The server simulates for those it knows."), signInPanel(() => this.open()));
-    }
+  /** @param {string} query of the address: a position and a shot, or a rack */
+  async open(query) {
+    this.racks = await fetch("/web/racks.json").then((answer) => answer.json()).catch(() => ({}));
     this.stage = new Stage();
     this.form = new ShotForm(() => this.changed());
     this.preview = new Preview((answer, elevation, problem) => this.previewed(answer, elevation, problem));
@@ -64,15 +67,55 @@ export class LabView {
         el("div", { class: "side-column" }, this.tablePart(), this.problem, this.outcome, this.ballPart(), this.form.element,
           el("label", { class: "check" }, this.lowest, "cue as low as it can be"), this.spreadPart(), this.textPart(),
           el("details", {}, el("summary", {}, "Events"), this.events))));
-    this.useTable(tableNames()[0]);
     this.stage.decorate = (scene) => this.decorate(scene);
     handle(this.stage, this.hands());
+    const problem = this.setUp(query);
     this.changed();
+    if (problem) fill(this.problem, problem);
+  }
+
+  /** Begin as the address says. @param {string} query @returns {string} what is wrong with it */
+  setUp(query) {
+    this.useTable(tableNames()[0]);
+    try {
+      const { table, balls, shot, rack, lowest } = readAddress(query);
+      if (table !== null && !tableNames().includes(table)) throw new Error(`There is no table ${table}.`);
+      if (table !== null) this.useTable(table);
+      if (balls && !balls[0]) throw new Error("The address names no cue ball, 0.");
+      if (rack !== null) this.rackUp(rack);
+      if (balls) this.balls = balls;
+      if (!shot) return "";
+      this.lowest.checked = lowest;
+      this.form.set(shot);
+      return "";
+    } catch (error) {
+      return error instanceof Error ? error.message : String(error);
+    }
+  }
+
+  /** The balls as for a break. @param {number} number which of the racks */
+  rackUp(number) {
+    const balls = this.racks[this.table.name]?.[number];
+    if (!balls) return;
+    this.rack = number;
+    this.balls = structuredClone(balls);
+    this.form.set({ v: 9, phi: 270, a: 0, b: 0 });
+  }
+
+  /** The address has the position and the shot: it can be sent, and comes back to them. */
+  writeAddress() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => history.replaceState(null, "", this.address), PAUSE);
+  }
+
+  get address() {
+    return labAddress(this.table.name, this.balls, this.form.shot, this.lowest.checked);
   }
 
   /** @param {string} name */
   useTable(name) {
     this.table = namedTable(name);
+    this.kind.value = name;
     this.stage.useTable(this.table);
     this.form.useTable(this.table);
     const lying = Object.entries(this.balls).every(([ball, place]) => mayLie(this.table, this.balls, Number(ball), place));
@@ -80,10 +123,12 @@ export class LabView {
   }
 
   tablePart() {
-    const choice = /** @type {HTMLSelectElement} */ (el("select", {
+    const choice = this.kind = /** @type {HTMLSelectElement} */ (el("select", {
       onchange: () => { this.useTable(choice.value); this.changed(); },
     }, tableNames().map((name) => el("option", { value: name }, tableTitle(name)))));
-    return el("p", { class: "one-line" }, labelled("Kind of table", choice));
+    return el("p", { class: "one-line" }, labelled("Kind of table", choice),
+      el("button", { type: "button", onclick: () => { this.rackUp(((this.rack ?? -1) + 1) % RACKS); this.changed(); } }, "Rack"),
+      el("button", { type: "button", onclick: () => this.share() }, "Copy link"));
   }
 
   ballPart() {
@@ -170,11 +215,21 @@ export class LabView {
     this.stage.rest(this.balls);
     this.preview.ask(this.table, this.balls, this.form.shot, this.lowest.checked);
     this.writeText();
+    this.writeAddress();
+  }
+
+  async share() {
+    history.replaceState(null, "", this.address);
+    await navigator.clipboard?.writeText(location.href).catch(() => {});
+    announce("The address has this position and shot; it is copied.");
   }
 
   previewed(answer, elevation, problem) {
     fill(this.problem, problem);
-    if (elevation !== null && this.lowest.checked) this.form.raise(elevation);
+    if (elevation !== null && this.lowest.checked) {
+      this.form.raise(elevation);
+      this.writeAddress();
+    }
     this.answer = answer;
     this.paths = answer?.events ? new Trace(this.table, this.balls, answer.events, answer.duration) : null;
     const fallen = answer?.events?.filter((event) => event.kind === "pocket_collision").map(describeEvent) ?? [];
@@ -190,10 +245,7 @@ export class LabView {
     if (this.heat) scene.under = this.heat;
     if (this.stage.entry || !this.balls[0]) return;
     scene.cue = cueOf(this.balls[0], this.form.shot, -0.2);
-    for (const ball of this.paths?.balls ?? []) {
-      const points = this.paths.path(ball);
-      if (points.length > 2) scene.lines?.push({ points, colour: "#9bd7ff", alpha: 0.9 });
-    }
+    addSight(scene, this.table, this.balls, this.form.shot.phi, this.paths);
   }
 
   play() {
@@ -207,7 +259,8 @@ export class LabView {
     const shots = Array.from({ length: VARIANTS }, () => noisy(this.form.shot, Number(this.level.value) || 0, this.table));
     const signal = this.spreading.ask();
     try {
-      const { results } = await call("POST", "/v1/simulate/batch", { body: { table: this.table.name, balls: this.balls, shots }, signal });
+      const results = await (token() ? this.inOne(shots, signal) : this.oneByOne(shots, signal));
+      signal.throwIfAborted();
       this.rows = results;
       this.drawHeat();
       fill(this.fallen, this.fallenText(results));
@@ -215,6 +268,26 @@ export class LabView {
       if (signal.aborted) return;
       fill(this.fallen, el("span", { class: "refusal" }, error instanceof ProblemError ? error.message : "The server cannot be reached."));
     }
+  }
+
+  async inOne(shots, signal) {
+    const body = { table: this.table.name, balls: this.balls, shots };
+    return (await call("POST", "/v1/simulate/batch", { body, signal })).results;
+  }
+
+  /** Without a token: some at a time. */
+  async oneByOne(shots, signal) {
+    const left = [...shots];
+    const rows = [];
+    const { table, balls } = this;
+    const work = async () => {
+      for (let shot = left.pop(); shot; shot = left.pop()) {
+        const answer = await call("POST", "/v1/simulate", { body: { table: table.name, balls, shot, trace: false }, signal });
+        rows.push({ balls: answer.balls, pocketed: Object.fromEntries(Object.entries(answer.facts.pocket).filter(([, pocket]) => pocket >= 0)) });
+      }
+    };
+    await Promise.all(Array.from({ length: AT_ONCE }, work));
+    return rows;
   }
 
   fallenText(results) {
@@ -261,6 +334,7 @@ export class LabView {
   }
 
   close() {
+    clearTimeout(this.timer);
     this.preview?.cancel();
     this.spreading.withdraw();
     this.stage?.close();

@@ -1,7 +1,9 @@
 /** The lobby: live games in small, what comes next, matches, agents. */
 
-import { get } from "./api.js";
+import { get, identity } from "./api.js";
 import { el } from "./dom.js";
+import { Ladder } from "./ladder.js";
+import { LastGames } from "./last_games.js";
 import { watchGames } from "./live.js";
 import { matchRow } from "./match_row.js";
 import { PagedList } from "./paged.js";
@@ -16,6 +18,9 @@ export class LobbyView {
     this.gallery = new Gallery();
     this.none = el("p", { class: "empty stand-in" }, "No game is being played. ",
       el("a", { href: "#/play" }, "Play one"), ", or try a shot in the ", el("a", { href: "#/lab" }, "laboratory"), ".");
+    this.own = el("p", { class: "own", hidden: true }, "A game of yours is on. ", el("a", { class: "button", href: "#/play" }, "Back to the table"));
+    this.ladder = new Ladder();
+    this.last = new LastGames();
     this.next = new PagedList({
       title: "Next", path: "/v1/matches?status=challenged", member: "matches",
       row: matchRow, empty: "No challenge is open.",
@@ -36,9 +41,9 @@ export class LobbyView {
     });
     this.file = /** @type {HTMLInputElement} */ (el("input", { type: "file", accept: ".jsonl,.json,.ndjson", id: "record-file" }));
     this.element = el("div", { class: "lobby" },
-      el("h1", {}, "Lobby"),
-      el("section", { "aria-label": "Live games" }, el("h2", { class: "live" }, "Live"), this.none, this.gallery.element),
-      el("div", { class: "lists" }, this.matches.element, this.tournaments.element, this.agents.element, this.next.element),
+      el("h1", {}, "Lobby"), this.own,
+      el("section", { "aria-label": "Live games" }, el("h2", { class: "live" }, "Live"), this.none, this.gallery.element), this.last.element,
+      el("div", { class: "lists" }, this.matches.element, this.tournaments.element, this.ladder.element, this.agents.element, this.next.element),
       el("section", { class: "drop", "aria-label": "Record file" },
         el("label", { for: "record-file" }, "Look at a record: drop the file anywhere on this page, or choose it"), this.file));
     /** @type {string[] | null} the games that run; null until the server has said it */
@@ -48,7 +53,7 @@ export class LobbyView {
   }
 
   async open() {
-    await Promise.all([this.next.load(), this.matches.load(), this.tournaments.load(), this.agents.load()]);
+    await Promise.all([this.next.load(), this.matches.load(), this.tournaments.load(), this.agents.load(), this.ladder.load(), this.last.load()]);
     while (!this.closed) {
       if (!document.hidden) await this.refresh();
       await new Promise((go) => setTimeout(go, AGAIN));
@@ -59,6 +64,8 @@ export class LobbyView {
   async refresh() {
     const running = await get(`/v1/matches?status=running&limit=${LIVE}`).catch(() => null);
     if (!running || this.closed) return;
+    const me = identity();
+    this.own.hidden = !(me && running.matches.some((match) => match.agents.includes(me.id)));
     const games = running.matches.flatMap((match) => match.played.filter((game) => game.status === "running").map((game) => game.id));
     if (games.join() === this.games?.join()) return;
     const first = this.games === null;
@@ -67,7 +74,9 @@ export class LobbyView {
     this.gallery.show(games);
     this.none.hidden = games.length > 0;
     this.stop = games.length ? watchGames(games, (game, kind, data) => this.gallery.take(game, kind, data)) : () => {};
-    if (!first) for (const list of [this.next, this.matches, this.tournaments]) list.refresh();
+    if (first) return;
+    for (const list of [this.next, this.matches, this.tournaments]) list.refresh();
+    for (const part of [this.ladder, this.last]) part.load();
   }
 
   close() {

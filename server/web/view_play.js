@@ -4,7 +4,7 @@ import { ProblemError, call, command, get, identity, newKey, newSeed, signOut, t
 import { Aiming } from "./aiming.js";
 import { announce, el, fill, labelled } from "./dom.js";
 import { Latest } from "./latest.js";
-import { signInPanel } from "./sign_in.js";
+import { signInPanel, tokenPanel } from "./sign_in.js";
 import { describeTable, tableNames, tableTitle } from "./tables.js";
 import { GameView } from "./view_game.js";
 
@@ -12,6 +12,8 @@ const AGAIN = 2000;
 const SECONDS = 900;
 /** How long a match may wait for the players' seeds, s: this page and shipped agents add theirs at once. */
 const SEEDS_WITHIN = 15;
+/** How much later than the news of what follows a game's result may come, ms. */
+const RESULT_WITHIN = 3000;
 /** A match that has no rack yet, so that seeds still count. */
 const WAITING = ["challenged", "opening"];
 
@@ -27,6 +29,8 @@ export class PlayView {
     /** @type {any} the view of a turn that waits until the picture has caught up */
     this.turn = null;
     this.closed = false;
+    this.resized = () => this.measure();
+    addEventListener("resize", this.resized);
     this.polls = new AbortController();
     /** The choice of an opponent on show: withdrawn by a match, and by the next. */
     this.choice = new Latest();
@@ -34,8 +38,14 @@ export class PlayView {
     this.match = null;
   }
 
-  open() {
+  /** @param {string | null} game the address of a game: its players go on with it, everybody else watches */
+  async open(game = null) {
     const me = identity();
+    if (game) {
+      const match = me && (await matchOf(game));
+      if (match?.status !== "running" || !match.agents.includes(me.id)) return location.replace(`#/games/${game}`);
+      return this.enter(match.id);
+    }
     if (!me) return fill(this.top, el("h1", {}, "Play"), signInPanel(() => this.open()));
     return this.continueMatch(me, this.chooseOpponent(me));
   }
@@ -59,6 +69,7 @@ export class PlayView {
     fill(this.top, el("h1", {}, "Play"),
       el("p", {}, "You are ", el("strong", {}, me.name), ". Games played here are unrated. ",
         el("button", { type: "button", onclick: () => this.leave() }, "Sign out")),
+      tokenPanel(),
       this.problem, el("p", { class: "one-line" }, labelled("Kind of table", this.table), labelled("Noise of the strokes", this.noise)),
       el("div", { class: "cards" },
         el("section", { class: "panel", "aria-label": "Opponent" }, el("h2", {}, "Against the house"), bots),
@@ -149,10 +160,20 @@ export class PlayView {
     this.game.idle = () => this.prepare();
     this.game.ended = () => this.turn && this.dropTurn();
     const concede = el("button", { type: "button", onclick: () => this.concede(concede) }, "Concede");
-    this.concedeButton = concede;
-    this.game.panel(this.aiming.element, concede);
+    this.waiting = el("p", { class: "waiting", role: "status" }, "Waiting for the turn …");
+    this.dock = el("div", { class: "dock" }, this.waiting, this.aiming.element);
+    this.game.sitDown([this.aiming.said, this.aiming.spin.element], this.dock, el("div", { class: "choices" }, concede,
+      el("button", { type: "button", onclick: () => copyAddress(game) }, "Copy link to the game")), tokenPanel());
+    history.replaceState(null, "", `#/play/${game}`);
     fill(this.gamePart, this.game.element);
+    this.measure();
     this.game.watch(game);
+  }
+
+  /** The table's screen begins below the bar, and ends where the window does. */
+  measure() {
+    const screen = this.game?.screen;
+    if (screen?.isConnected) screen.style.setProperty("--above", `${Math.round(screen.getBoundingClientRect().top + scrollY)}px`);
   }
 
   /** Ask for turns until this match is over. A turn is asked for once: it waits until it is answered. */
@@ -169,23 +190,38 @@ export class PlayView {
     }
   }
 
-  told(message) {
+  async told(message) {
     if (message.match && message.match !== this.match && message.type !== "turn") return;
     if (message.type === "turn") {
-      if (message.game !== this.game.model?.terms.id && this.game.model) this.begin(message.game);
       this.turn = message.view;
+      if (this.game.model && message.game !== this.game.model.terms.id) {
+        await this.lastSeen();
+        if (this.closed) return;
+        this.begin(message.game);
+      }
       this.prepare();
     } else if (message.type === "match_over") {
-      this.over("");
+      this.match = null;
+      await this.lastSeen();
+      if (!this.closed) this.over("");
     }
+  }
+
+  /** The game on show has been seen to its end; its result may come a moment later than the news of what follows. */
+  async lastSeen() {
+    const { game } = this;
+    const late = performance.now() + RESULT_WITHIN;
+    while (!this.closed && game?.model && !game.model.isOver && performance.now() < late) await pause(50);
+    while (!this.closed && game?.model && !game.seen) await pause(50);
   }
 
   /** Take the turn, once the strokes before it have been seen. */
   prepare() {
     const { turn, game } = this;
     if (!turn || !game?.model || game.isBehind(turn) || this.aiming.view) return;
+    game.catchUp();
     this.aiming.begin(turn);
-    announce("It is your turn.");
+    announce("It is your turn.", true);
   }
 
   /** The turn is not to be had any more: see what comes. */
@@ -231,14 +267,17 @@ export class PlayView {
   over(said) {
     this.match = null;
     this.turn = null;
-    fill(this.top, el("h1", {}, "Play"), said && el("p", {}, said),
-      el("button", { type: "button", class: "first", onclick: () => this.again() }, "Play again"));
+    this.aiming?.end();
+    const again = el("button", { type: "button", class: "first", onclick: () => this.again() }, "Play again");
+    if (this.game) fill(this.dock, el("p", { class: "waiting" }, "The match is over."), again);
+    else fill(this.top, el("h1", {}, "Play"), said && el("p", {}, said), again);
   }
 
   again() {
     this.game?.close();
     this.game = null;
     fill(this.gamePart);
+    history.replaceState(null, "", "#/play");
     this.chooseOpponent(identity());
   }
 
@@ -250,11 +289,24 @@ export class PlayView {
 
   close() {
     this.closed = true;
+    removeEventListener("resize", this.resized);
     this.choice.withdraw();
     this.polls.abort();
     this.aiming?.end();
     this.game?.close();
   }
+}
+
+/** The match of a game; null when there is none. @param {string} game */
+async function matchOf(game) {
+  const found = await get(`/v1/games/${encodeURIComponent(game)}`).catch(() => null);
+  return found && get(`/v1/matches/${encodeURIComponent(found.view.match)}`).catch(() => null);
+}
+
+/** What can be sent to anybody. @param {string} game */
+async function copyAddress(game) {
+  await navigator.clipboard?.writeText(`${location.origin}/#/games/${game}`).catch(() => {});
+  announce(`Copied: ${location.origin}/#/games/${game}`);
 }
 
 /** The agent of exactly this name. @param {string} name */

@@ -70,10 +70,16 @@ function standingsTable(standings) {
       [one.points, one.games, one.wins, one.draws, one.losses].map((value) => el("td", { class: "number" }, value)))))));
 }
 
+/** Which game of which pair: both have the same racks, the break exchanged. */
+function pairInWords({ pair, leg }) {
+  const number = /-p(\d+)$/.exec(pair);
+  return `${number ? `pair ${Number(number[1]) + 1}` : `pair ${pair}`}, ${leg === 0 ? "first" : "second"} game`;
+}
+
 function gameList(played) {
   if (!played.length) return el("p", { class: "empty" }, "No game has begun.");
   return el("ul", { class: "rows panel" }, played.map((game) => el("li", {}, el("article", { class: "match" },
     game.match ? el("a", { href: `#/matches/${game.match}` }, game.players.join(" – ")) : el("span", {}, game.players.join(" – ")),
-    facts(`round ${game.round + 1}`, game.pair,
+    facts(`round ${game.round + 1}`, pairInWords(game),
       game.outcome ? describeOutcome(game.outcome, game.players) : stateMark(game.status))))));
 }

@@ -7,9 +7,12 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 import uuid
 from collections.abc import Callable, Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -109,6 +112,32 @@ def own_server(tmp_path: Path) -> Iterator[Server]:
 def own_server_for_one(tmp_path: Path) -> Iterator[Server]:
     """A server that lets an address watch once at a time."""
     running = Server(tmp_path / "pooliad.db", POOLIAD_STREAMS="1")
+    yield running
+    running.close()
+
+
+class Folder(SimpleHTTPRequestHandler):
+    """Gives the files of a folder, and says nothing."""
+
+    def log_request(self, code: Any = "-", size: Any = "-") -> None:
+        """Nothing."""
+
+
+@pytest.fixture
+def embedder(tmp_path: Path) -> Iterator[tuple[str, Path]]:
+    """Another origin, and the folder whose files it shows."""
+    folder = tmp_path / "pages"
+    folder.mkdir()
+    with ThreadingHTTPServer(("127.0.0.1", 0), partial(Folder, directory=str(folder))) as http:
+        threading.Thread(target=http.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{http.server_port}", folder
+        http.shutdown()
+
+
+@pytest.fixture
+def own_server_in_frames(tmp_path: Path, embedder: tuple[str, Path]) -> Iterator[Server]:
+    """A server whose games another page may show."""
+    running = Server(tmp_path / "pooliad.db", POOLIAD_FRAME_ANCESTORS=embedder[0])
     yield running
     running.close()
 

@@ -1,15 +1,12 @@
 """What holds for every view: headers, accessibility (axe-core, WCAG 2.2 AA), 390 px, keys, both colour schemes."""
 
-from pathlib import Path
 from typing import Any
 
-import axe_playwright_python
 import pytest
 from playwright.sync_api import Page
+from support.axe import violations
 from support.play_along import play_on
 
-AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
-RULES = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]}
 VIEWS = ("lobby", "game", "match", "agent", "play", "lab")
 
 
@@ -76,13 +73,6 @@ def test_axe_finds_nothing(new_page, server, match, scheme):
     assert [(view, *faults) for view, faults in found.items() if faults] == []
     page.evaluate("document.querySelector('main').append(document.createElement('button'))")
     assert any(fault.startswith("button-name") for fault in violations(page)), "axe looks at nothing"
-
-
-def violations(page: Page) -> list[str]:
-    """In the page's own world, by the debugger: the policy lets no script in otherwise."""
-    page.evaluate(AXE.read_text())
-    result = page.evaluate("rules => axe.run(document, rules)", RULES)
-    return [f"{one['id']}: {[node['html'] for node in one['nodes']]}" for one in result["violations"]]
 
 
 def test_every_view_fits_a_phone(new_page, server, match):

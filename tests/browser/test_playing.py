@@ -61,6 +61,7 @@ class Hand:
             self.page.get_by_label("Pocket").select_option(str(call.pocket))
 
     def fill(self, label: str, value: float) -> None:
+        self.page.locator("details.numbers").evaluate_all("all => all.forEach((one) => { one.open = true; })")
         field = self.page.get_by_label(label, exact=True)
         field.fill(repr(value))
         field.press("Tab")
@@ -271,7 +272,7 @@ def test_the_cue_ball_is_dragged_and_the_cue_aimed_by_mouse_and_keys(human):
     table = view.table_model()
     carry(page, table, (0.3, 1.95))
     carry(page, table, (0.3, 0.5))
-    turn.get_by_text("may not lie there").wait_for()
+    page.get_by_text("may not lie there").wait_for()
     assert turn.get_by_role("button", name="Shoot").is_disabled()
     human.fill("Cue ball across, m", 0.3)
     human.fill("Cue ball along, m", 1.95)

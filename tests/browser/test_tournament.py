@@ -28,6 +28,8 @@ def test_a_tournament_is_followed_from_the_lobby_to_a_game(page, server):
     label = page.get_by_role("img", name="Ratings in Elo points").get_attribute("aria-label")
     assert all(f"{one['name']} {round(one['elo'])}" in label for one in standings["ratings"])
     assert page.locator(".mark").count() == 0
+    page.get_by_text("pair 1, first game").first.wait_for()
+    page.get_by_text("pair 1, second game").first.wait_for()
     page.get_by_role("link", name="–").first.click()
     page.get_by_role("link", name="Game 1").click()
     page.locator(".result", has_text="wins: concession").wait_for()

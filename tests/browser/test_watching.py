@@ -18,8 +18,9 @@ def concede(match: Any) -> None:
     assert answer.status_code == 200, answer.text
 
 
-def test_a_live_game_is_watched_to_its_end(page, server):
+def test_a_live_game_is_watched_to_its_end(new_page, server):
     """Every stroke appears as it is played, with its sentence; the end with its reason and the record."""
+    page = new_page(reduced_motion="reduce")  # the list waits for the picture, which does not roll
     match = server.match(names=("watched ann", "watched bob"))
     game = match.game
     page.goto(f"{server.url}/#/games/{game}")

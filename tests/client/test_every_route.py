@@ -79,6 +79,7 @@ ARGUMENTS: dict[str, list[tuple[Any, ...]]] = {
     "simulate": [(*SCENE, SHOT)],
     "simulate_batch": [(*SCENE, [SHOT])],
     "min_elevation": [(*SCENE, 270.0)],
+    "ladder": [()],
     "tables": [()],
     "table": [(ID,)],
     "describe_table": [(TABLE,)],

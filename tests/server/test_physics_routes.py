@@ -207,3 +207,26 @@ def test_a_batch_that_nobody_waits_for_any_more_is_ended():
     with pytest.raises(InterruptedError):
         service.simulate_batch(batch(1000), go_on)
     assert len(asked) == 3
+
+
+ONE = {"table": "olympiad", "balls": {"0": [0.5, 1.7]}, "shot": {"v": 2, "phi": 270, "theta": 5, "a": 0, "b": 0}}
+RAISED = {"table": "olympiad", "balls": {"0": [0.5, 1.7]}, "phi": 270, "a": 0, "b": 0}
+
+
+def test_single_shots_need_no_token_but_batches_and_budgets_do(server, new_table):
+    """Issue 17: the laboratory works without signing in. What counts for a player is for players."""
+    http, game = server.http, new_table().game
+    assert http.post("/v1/simulate", json=ONE).json()["status"] == "at_rest"
+    assert http.post("/v1/min-elevation", json=RAISED).json()["theta"] > 0
+    counted = http.post("/v1/simulate", json=ONE | {"game": game}, headers={"Idempotency-Key": "a stranger's"})
+    assert (counted.status_code, counted.json()["code"]) == (401, "unauthorized")
+    batch = {"table": "olympiad", "balls": ONE["balls"], "shots": [ONE["shot"]]}
+    assert http.post("/v1/simulate/batch", json=batch).status_code == 401
+
+
+def test_strangers_simulations_are_rated_by_address_and_may_be_switched_off(own_server):
+    rated = own_server(POOLIAD_ADDRESS_RATE="0.01", POOLIAD_ADDRESS_BURST="2")
+    assert [rated.http.post("/v1/simulate", json=ONE).status_code for _ in range(3)] == [200, 200, 429]
+    closed = own_server(POOLIAD_PUBLIC_PHYSICS="false")
+    for path, body in (("/v1/simulate", ONE), ("/v1/min-elevation", RAISED)):
+        assert closed.http.post(path, json=body).status_code == 401

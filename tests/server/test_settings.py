@@ -60,6 +60,11 @@ def test_secrets_are_masked_in_what_is_printed():
         ("timer_period = nan", "timer_period = nan"),
         ('registration = "maybe"', "registration = 'maybe': must be one of open, invited, closed"),
         (f'{SECRET} = "short"', "at least 32"),
+        (
+            'frame_ancestors = "https://a.org; script-src *"',
+            "frame_ancestors = 'https://a.org; script-src *': must be ",
+        ),
+        ('frame_ancestors = "javascript:"', "frame_ancestors = 'javascript:': must be origins such as"),
         ("timer_period = ", "no TOML file"),
         ("[timer]\nperiod = 1", "setting 'timer': must be"),
     ],

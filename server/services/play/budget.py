@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from sqlalchemy import Connection, case, select, true, update
 
-from server.errors import BudgetSpent, GameFinished
+from server.errors import BudgetSpent, GameFinished, Unauthorized
 from server.http.commands import Answer, Command, once, usable_key
 from server.security.callers import Caller
 from server.services.play.live_game import LiveGame, hold
@@ -19,11 +19,14 @@ def count(context: Context, command: Command, game_id: str | None, shots: int) -
     """Count shots about to be simulated for one of the game's players, once however often the request comes.
 
     Without a game there is nothing to count, and no key is needed. Raises `BadHeader` and `KeyReused` as every command
-    does, `NotFound`, `Forbidden`, `GameFinished`, and `BudgetSpent` when fewer are left; nothing is counted then.
+    does, `Unauthorized`, `NotFound`, `Forbidden`, `GameFinished`, and `BudgetSpent` when fewer are left; nothing is
+    counted then.
     """
     if command.key is not None:
         usable_key(command)
     if game_id is not None:
+        if command.caller.is_stranger:
+            raise Unauthorized("a game's budget is its players': there is no token that says whose shot this is")
         with context.writing() as writing:
             once(writing.connection, command, lambda: _count(writing.connection, command.caller, game_id, shots))
 

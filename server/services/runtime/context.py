@@ -23,6 +23,7 @@ from server.services.runtime.time import TimeSource
 from server.services.runtime.wakeups import Wakeups
 from server.services.runtime.warmup import Kernels
 from server.services.tournaments.tournament_cache import TournamentCache, TournamentState
+from server.services.watch.ladder_cache import KeptLadder
 from server.services.watch.presence import Presence
 from server.settings import Settings
 from server.store.database import Database
@@ -44,7 +45,7 @@ class Context:
         aside: threads for what must not wait behind requests: signs of life, the timer, what is asked about health.
         pulse: whether the signs of life reach the database.
         in_hand: the requests that are being worked on.
-        courses: how the tournaments stand that were asked for last.
+        courses: how the tournaments stand that were asked for last. ladder: likewise, of all rated games.
         over: matches that are over, as lists show them.
         failpoint: told every step at which tests have the process killed.
         match_over: called when a match has ended, with its id, in the transaction that ended it.
@@ -66,6 +67,7 @@ class Context:
     in_hand: RequestsInHand = field(default_factory=RequestsInHand)
     courses: TournamentCache = field(default_factory=TournamentCache)
     over: VersionedCache[bytes] = field(default_factory=lambda: VersionedCache(MATCHES_KEPT, lambda text: 0))
+    ladder: KeptLadder = field(default_factory=KeptLadder)
     failpoint: Failpoint = field(default_factory=lambda: failpoints.parse(""))
     match_over: Callable[["Writing", str], None] = lambda writing, match_id: None
 

@@ -102,7 +102,7 @@ def since(
     news: list[SpectatorEvent] = []
     standings: dict[str, SpectatorState] = {}
     with context.database.reading() as connection:
-        here = _here(context, connection)
+        here = agents_here(context, connection)
         for game_id in _moved(connection, known, here):
             live, before = context.seen.find(connection, game_id), known[game_id]
             strokes = list(_strokes(connection, game_id, moves.c.number >= before.strokes))
@@ -160,10 +160,10 @@ def _standing(context: Context, connection: Connection, live: LiveGame) -> Spect
     numbers = select(moves.c.sequence, moves.c.number).where(moves.c.game_id == live.id)
     last = connection.execute(numbers.order_by(moves.c.number.desc()).limit(1)).first()
     sequence, strokes = (0, 0) if last is None else (last.sequence, last.number + 1)
-    return SpectatorState(_marks(_here(context, connection), live.row, live.agents), sequence, strokes)
+    return SpectatorState(_marks(agents_here(context, connection), live.row, live.agents), sequence, strokes)
 
 
-def _here(context: Context, connection: Connection) -> frozenset[str]:
+def agents_here(context: Context, connection: Connection) -> frozenset[str]:
     """The agents that poll this process, or another one on the same database."""
     now = context.time.now()
     here = context.presence.here(now)

@@ -1,0 +1,123 @@
+"""Watching on: the next game, chances to win, games in a frame of another page (issue 17, "The page, watching")."""
+
+import json
+from typing import Any
+
+import pytest
+from support.axe import violations
+from support.play_along import Match, next_turn, play_on
+
+from referee.game import Game
+from tournament.luck import VALUE
+
+CHANCES = """async ([games, noise]) => {
+  const { chanceOfFirst } = await import("/web/chances.js");
+  const { weights } = await (await fetch("/web/value.json")).json();
+  return games.map((game) => chanceOfFirst(weights, game, noise));
+}"""
+
+
+def concede(match: Match) -> None:
+    turn = next_turn(match)
+    assert turn is not None
+    seat, view = turn
+    headers = {"If-Match": f'"{view.version}"'}
+    path = f"/v1/games/{view.game}/concede"
+    answer = match.server.send("POST", path, match.tokens[seat], headers=headers)
+    assert answer.status_code == 200, answer.text
+
+
+def test_the_next_game_follows_by_itself(new_page, server):
+    """For whoever follows; the result of the one before is shown meanwhile."""
+    page = new_page(reduced_motion="reduce")
+    match = server.match(games=2, names=("follow ann", "follow bob"))
+    first = match.game
+    page.goto(f"{server.url}/#/games/{first}")
+    page.get_by_text("Game 1 of 2").wait_for()
+    concede(match)
+    page.locator(".result", has_text="wins: concession").wait_for()
+    page.get_by_text("Game 2 of 2").wait_for()
+    assert match.game != first
+    assert page.url.endswith(match.game)
+
+
+def test_chances_are_those_of_the_luck_report(page, server):
+    """The same numbers, whatever the state; over a game that was played, in a picture with its name."""
+    match = server.match(noise={"level": 0.5})
+    game = match.game
+    play_on(match, 10)
+    concede(match)
+    lines = server.http.get(f"/v1/games/{game}/record").text.splitlines()
+    entries = [one for one in map(json.loads, lines) if "entry" in one]
+    states = [one["game"] for one in entries]
+    variants: list[dict[str, Any]] = [
+        state | {"groups": groups, "turn": turn, "cue_ball_in_hand": area, "phase": "play"}
+        for state in states
+        if state["phase"] == "play"
+        for groups in (None, ["solids", "stripes"], ["stripes", "solids"])
+        for turn in (0, 1)
+        for area in (None, "anywhere", "kitchen")
+    ]
+    games = states + variants
+    page.goto(server.url)
+    shown = page.evaluate(CHANCES, [games, 0.5])
+    truth = [VALUE(Game.from_dict(game), 0, 0.5) for game in games]
+    assert len(games) > 50
+    assert shown == pytest.approx(truth, abs=1e-12)
+    page.goto(f"{server.url}/#/games/{game}")
+    figure = page.get_by_role("figure").filter(has_text="the value that the luck report uses")
+    figure.wait_for()
+    label = figure.get_by_role("img").get_attribute("aria-label")
+    assert label.endswith(f"over {len(entries)} strokes; now {round(100 * truth[len(states) - 1])} %"), label
+    assert violations(page) == []
+
+
+def test_a_game_is_shown_in_a_frame_of_those_who_may(new_page, own_server_in_frames, embedder, watched):
+    """And acts for nobody there: a page around it could lead clicks astray."""
+    server, (origin, folder) = own_server_in_frames, embedder
+    watched.forgiven = (origin, "favicon", "404")
+    match = server.match(names=("framed ann", "framed bob"))
+    page = new_page()
+    page.goto(f"{server.url}/#/games/{match.game}")
+    page.get_by_text("Share and embed").click()
+    frame = page.get_by_label("Frame for another page").input_value()
+    assert f'<iframe src="{server.url}/#/games/{match.game}"' in frame
+    (folder / "page.html").write_text(f"<!doctype html><title>x</title>{frame}")
+    around = new_page()
+    around.goto(f"{origin}/page.html")
+    inside = around.frame_locator("iframe")
+    inside.get_by_role("heading", level=1).filter(has_text="framed ann").wait_for()
+    assert inside.locator(".table canvas").is_visible()
+    assert not inside.locator("header.bar").is_visible()
+    assert inside.locator("body").evaluate("async () => (await import('/web/api.js')).token()") is None
+    policy = server.http.get("/").headers["content-security-policy"]
+    assert f"frame-ancestors {origin};" in policy
+    assert "frame-ancestors 'none'" in server.http.get("/docs").headers["content-security-policy"]
+
+
+def test_nobody_shows_it_in_a_frame_unless_allowed_to(server):
+    assert "frame-ancestors 'none'" in server.http.get("/").headers["content-security-policy"]
+
+
+def test_a_lobby_shows_last_games_and_the_ladder_when_nothing_is_played(new_page, own_server):
+    """Issue 17: a lobby that looks alive when nothing happens; ratings of a standing server, and who is there."""
+    match = own_server.match(names=("rated ann", "rated bob"), seed=None)
+    concede(match)
+    page = new_page()
+    page.goto(own_server.url)
+    page.get_by_role("region", name="Last games").get_by_text("wins: concession").wait_for()
+    picture = page.get_by_role("region", name="Last games").locator("img")
+    picture.scroll_into_view_if_needed()
+    page.wait_for_function("() => document.querySelector('[aria-label=\"Last games\"] img').naturalWidth > 0")
+    rungs = own_server.http.get("/v1/ladder").json()["rungs"]
+    assert [one["games"] for one in rungs] == [1, 1]
+    ladder = page.get_by_role("table", name="after 1 rated game")
+    rows = ladder.get_by_role("row")
+    rows.nth(2).wait_for()
+    for place, one in enumerate(rungs, 1):
+        assert rows.nth(place).get_by_role("rowheader").inner_text().startswith(one["name"])
+        assert f"{one['ordinal']:.1f}" in rows.nth(place).inner_text()
+    assert violations(page) == []
+    ladder.get_by_role("link", name=rungs[0]["name"]).click()
+    page.get_by_text("Rung 1 of 2").wait_for()
+    page.get_by_text("1 rated game", exact=True).wait_for()
