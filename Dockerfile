@@ -6,6 +6,7 @@ RUN pip install --require-hashes -r locks/build.txt
 COPY pyproject.toml README.md LICENSE ./
 COPY physics physics
 COPY pictures pictures
+COPY calibration calibration
 COPY referee referee
 COPY tournament tournament
 COPY protocol protocol

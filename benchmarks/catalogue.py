@@ -19,6 +19,7 @@ BENCHMARKS = {
     "value": "weights of the value function behind the luck report, fitted to games of equal players",
     "value_bound": "how much of who wins a position any value function could explain",
     "luck": "the luck report: is the corrected score unbiased, and how much variance does it save?",
+    "recovery": "calibration: hidden parameters found again from synthetic paths; coverage of intervals; a wrong law",
     "learning": "the learning environments: steps a second, one game at a time and many at once",
     "beside": "local play, events and environments beside those of an earlier commit in one run",
     "agents": "the shipped greedy against random: games won, called balls made, seconds a stroke",

@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "benchmarks" / "results"
 LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "mpmath")
 
-MEASURED = ("physics", "referee", "client", "server", "tournament", "benchmarks/*.py")
+MEASURED = ("physics", "calibration", "referee", "client", "server", "tournament", "benchmarks/*.py")
 """What a line's commit is meant to say; the lines themselves change with every run."""
 WIDEST = 60
 """Letters in a printed cell; the data line holds all."""

@@ -130,7 +130,9 @@ class Result:
         states[order] = self._states(wanted[order].reshape(1, -1)).reshape(states.shape)
         positions = states[:, :, PLACE] + (0.5 * self.table.width, 0.5 * self.table.length)
         heights = states[:, :, at.A_Z].copy() if self.table.has_jaws else np.zeros(states.shape[:2])
-        away = np.isin(states[:, :, at.A_MOTION], OUT_OF_PLAY)
+        motion = states[:, :, at.A_MOTION]
+        pocketed, absent, driven_off = OUT_OF_PLAY  # three comparisons: np.isin takes five times as long
+        away = (motion == pocketed) | (motion == absent) | (motion == driven_off)
         positions[away], heights[away] = np.nan, np.nan
         return positions, heights
 

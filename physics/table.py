@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 Collisions = Literal["consistent", "fastfiz"]
 """Named sets of collision laws; ``docs/physics.md`` gives each with its source."""
 
-_RANGES: dict[str, tuple[float, float]] = {
+RANGES: dict[str, tuple[float, float]] = {
     "mu_slide": (0.01, 1.0),
     "mu_spin": (0.001, 1.0),
     "mu_ball": (0.0, 1.0),
@@ -287,7 +287,7 @@ def _check_parameter(name: str, value: Any, *, mu_slide: Any) -> None:
         if not isinstance(value, bool):
             raise InvalidTable(name, value, "must be True or False")
         return
-    ranges = _RANGES | {"mu_roll": (0.001, mu_slide)}
+    ranges = RANGES | {"mu_roll": (0.001, mu_slide)}
     low, high = ranges[name]
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if not is_number or not low <= value <= high:

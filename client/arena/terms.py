@@ -11,6 +11,7 @@ from client.arena.hosting import Hosting
 from client.arena.resumable_game import GameTask
 from client.arena.tasks import PairTask
 from physics.errors import shown
+from physics.table_file import ENDING, read_table
 from tournament import Due, Spec, TournamentError, game_seeds
 
 
@@ -34,7 +35,8 @@ class Terms:
             EventError: it cannot be read, or something in it cannot be: field, value and what is allowed.
         """
         try:
-            terms = cls.from_dict(tomllib.loads(path.read_text(encoding="utf-8")))
+            values = tomllib.loads(path.read_text(encoding="utf-8"))
+            terms = cls.from_dict(_with_table(values, path.parent))
         except (OSError, ValueError, RecursionError) as error:  # no text, no TOML, a number of thousands of digits
             raise EventError(f"{path} cannot be read: {error}") from None
         except EventError as error:
@@ -91,3 +93,11 @@ class Terms:
             agent_seed=self.agent_seed,
             directory=None if directory is None else str(directory),
         )
+
+
+def _with_table(values: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The values, a table's file read; its name counts from the folder of the event file."""
+    table = values.get("table")
+    if not isinstance(table, str) or not table.endswith(ENDING):
+        return values
+    return values | {"table": read_table(folder / table).to_dict()}

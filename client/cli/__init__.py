@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from client.cli import agent, backup, bench, demo, doctor, keys, replay, serve, simulate, tournament
+from client.cli import agent, backup, bench, calibrate, demo, doctor, keys, replay, serve, simulate, tournament
 from client.cli.doctor import show_version
 from client.cli.output import FAILED
 from client.cli.tables import TableCommand
@@ -24,6 +24,7 @@ def application() -> typer.Typer:
     app.command("serve")(serve.serve)
     app.command("backup")(backup.backup)
     app.command("simulate", cls=TableCommand)(simulate.simulate)
+    app.command("calibrate", cls=TableCommand)(calibrate.calibrate)
     app.command("doctor")(doctor.doctor)
     app.command("bench")(bench.bench)
     app.add_typer(agent.commands(), name="agent")

@@ -19,7 +19,7 @@ def demo(
         int | None, typer.Option(min=0, help="Repeats racks, first breaker, noise and the agents' choices.")
     ] = None,
     noise: Annotated[float, typer.Option(min=0.0, max=5.0, help="Noise level; 1 is the Olympiad's.")] = 1.0,
-    table: Annotated[str, typer.Option(help=f"{NAMES}, or JSON with parameters.")] = "olympiad",
+    table: Annotated[str, typer.Option(help=f"{NAMES}, JSON with parameters, or a TOML file of them.")] = "olympiad",
     out: Annotated[
         Path | None, typer.Option(help="Directory for records, database and logs; a new one unless given.")
     ] = None,

@@ -25,7 +25,7 @@ def simulate(
         typer.Option(help="Where the balls lie: 0:0.5,1.7 3:0.4,0.6 or JSON, or @FILE with either."),
     ] = None,
     rack: Annotated[int | None, typer.Option(min=0, help="A fresh 8-ball rack from this seed instead.")] = None,
-    table: Annotated[str, typer.Option(help=f"{NAMES}, or JSON with parameters.")] = "olympiad",
+    table: Annotated[str, typer.Option(help=f"{NAMES}, JSON with parameters, or a TOML file of them.")] = "olympiad",
     picture: Annotated[
         Path | None, typer.Option(help="Draw the shot into this file too: .svg, .png or .html, which moves.")
     ] = None,

@@ -1,4 +1,4 @@
-"""The table a command is told to use: by name, or JSON with parameters."""
+"""The table a command is told to use: by name, JSON with parameters, or a TOML file with them."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -28,14 +28,20 @@ class TableCommand(TyperCommand):
 
 
 def load_table(text: str) -> "Table":
-    """The table named, or described in JSON; leaves the command when there is none."""
+    """The table named, described in JSON, or in a TOML file; leaves the command when there is none."""
     import json
+    from pathlib import Path
 
     from physics import InvalidTable, Table
+    from physics.table_file import ENDING, read_table
 
     try:
+        if text.endswith(ENDING):
+            return read_table(Path(text))
         return Table.from_dict(json.loads(text) if text.lstrip().startswith("{") else {"name": text})
     except (json.JSONDecodeError, RecursionError) as error:
         fail(f"--table is not JSON: {error}", USAGE)
+    except OSError as error:
+        fail(f"{text} cannot be read: {error.strerror}", USAGE)
     except InvalidTable as error:
         fail(str(error), USAGE)

@@ -170,6 +170,7 @@ games = Table(
     Column("seal", Text),
     Column("head", String(64), nullable=False),
     UniqueConstraint("match_id", "number"),
+    Index("ix_games_ended", "status", "ended_at", "id"),
 )
 """`mover`: whose turn it is, null when the game is over. `available_at`: since when it could be fetched; `clock_from`:
 since when it is charged, which is later by the grace or until it was fetched; `deadline`: when the turn is over

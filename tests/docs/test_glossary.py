@@ -7,7 +7,7 @@ from collections import defaultdict
 from support.documents import PAGES
 from support.require import ROOT
 
-PACKAGES = ("physics", "pictures", "referee", "tournament", "protocol", "server", "client")
+PACKAGES = ("physics", "pictures", "calibration", "referee", "tournament", "protocol", "server", "client")
 MIRRORED = re.compile(r"^(client|server)/errors")
 """A problem code has two classes of one name: the server answers with the one, the client raises the other."""
 

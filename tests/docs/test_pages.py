@@ -48,5 +48,7 @@ def test_every_page_is_in_the_index_and_ends_with_limits():
 def test_full_names_lead_somewhere(page):
     """`package.module.name` in backquotes is a module, a function, a class or something of one."""
     text = PAGES[page].read_text(encoding="utf-8")
-    for name in sorted(set(re.findall(r"`((?:physics|referee|tournament|protocol|server|client)(?:\.\w+)+)", text))):
+    for name in sorted(
+        set(re.findall(r"`((?:physics|calibration|referee|tournament|protocol|server|client)(?:\.\w+)+)", text))
+    ):
         pkgutil.resolve_name(name)

@@ -8,7 +8,7 @@ import pytest
 from support.documents import PAGES, python_blocks
 from support.require import ROOT
 
-PACKAGES = ("physics", "pictures", "referee", "tournament", "protocol", "server", "client")
+PACKAGES = ("physics", "pictures", "calibration", "referee", "tournament", "protocol", "server", "client")
 BY_THE_RULES = {"R42", "R43", "R44", "R45", "R46"}
 
 

@@ -244,8 +244,9 @@ def new_running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[.
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """Every test runs on the databases of its module."""
-    if "database_kind" in metafunc.fixturenames:
+    """Every test runs on the databases of its module, or on those it names itself."""
+    named = [mark for mark in metafunc.definition.iter_markers("parametrize") if mark.args[0] == "database_kind"]
+    if "database_kind" in metafunc.fixturenames and not named:
         kinds = DATABASES.get(metafunc.module.__name__.rpartition(".")[2], BOTH[:1])
         metafunc.parametrize("database_kind", kinds, indirect=True, scope="session")
 

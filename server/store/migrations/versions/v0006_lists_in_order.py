@@ -20,6 +20,7 @@ NEW: Final = {
     "ix_matches_listed_seat_1": ("matches", ("seat_1", *ORDER)),
     "ix_matches_listed_seat_0_status": ("matches", ("seat_0", "status", *ORDER)),
     "ix_matches_listed_seat_1_status": ("matches", ("seat_1", "status", *ORDER)),
+    "ix_games_ended": ("games", ("status", "ended_at", "id")),
     "ix_tournaments_listed": ("tournaments", ORDER),
     "ix_tournaments_listed_status": ("tournaments", ("status", *ORDER)),
     "ix_tournament_entries_noted": ("tournament_entries", ("tournament_id", "sequence")),

@@ -1,0 +1,284 @@
+"""The order of events found: each shot is matched up to its first meeting, then one meeting further, and so on.
+
+A shot's residuals are smooth only as long as its events keep their order, so a fit of whole paths stays in whatever
+order it begins in. Here a shot gets its next meeting only when the model follows the paths up to there; where it does
+not, other starts are drawn; and a shot that no start explains is kept up to the meeting where it parts.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from calibration.joint import JointFit, Member
+from calibration.observed import Floats, ObservedShot
+from calibration.outliers import outliers
+from calibration.parameters import Parameter
+from calibration.shot_fit import ShotFit, fit_shot, search_shot
+from calibration.shot_model import ShotModel
+from physics import Table
+
+FOLLOWED = 5.0
+"""Root mean square of residuals, in standard deviations, up to which the model follows the paths."""
+FOLLOWED_METRES = 3e-3
+"""The same where the noise is smaller: parameters are not known yet."""
+NEAR, NEAR_METRES = 25.0, 0.025
+"""The same of a whole path that the model comes so near to that it is matched at once."""
+STRAY, NO_STRAY = 6.0, 4.5
+"""Standard deviations of a sample that is left out after the fit, and of those beside it at most."""
+MILD = 4.0
+"""A shot whose root mean square is above this counts less in a stage, so that one in a wrong order moves nobody."""
+MOST_ROUNDS = 14
+PATIENCE = 2
+"""Rounds without progress before a shot is given up."""
+SPREADS = (2.0, 6.0)
+"""How far starts are drawn, in standard deviations of the nuisances; every second time the second."""
+CAUGHT = 0.5
+"""Fall of the cost, in standard deviations squared, that slopes may promise at a smooth minimum."""
+BADLY = 2.5
+"""Standard deviations of a shot's cost above what noise alone gives, beyond which another order is looked for."""
+MOST_RELEASES = 3
+COARSE_STEPS, FINE_STEPS = 10, 40
+FINE, FINE_EVALUATIONS = 1e-6, 8
+
+Observer = Callable[[str, float], None]
+"""Told what is being done, and which part of all is done, 0 to 1."""
+
+
+class StagedShot:
+    """One shot on its way to its last sample.
+
+    Attributes:
+        member: its place in the joint fit. horizon: s of the data, up to where it is matched; infinite at the end.
+        given_up: no order of events was found that goes further.
+    """
+
+    def __init__(self, model: ShotModel, shot: ObservedShot, table: Table) -> None:
+        self.model = model
+        self.horizon = -np.inf
+        self.given_up = False
+        self._failed = 0
+        bad = outliers(shot, model.sigma)
+        self.outliers = bad
+        self._base = np.concatenate(((~bad[model.sample_of_row]).astype(float), np.ones(len(model.names))))
+        self._row_times = shot.times[model.sample_of_row]
+        self.member = self._begun(table)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether all of it is matched."""
+        return bool(np.isinf(self.horizon) and self.horizon > 0.0)
+
+    def weights(self, horizon: float) -> Floats:
+        """(n + k,) of the rows: 0 for outliers and for what lies beyond the horizon."""
+        weights = self._base.copy()
+        weights[: self.model.n_samples][self._row_times > horizon] = 0.0
+        return weights
+
+    def _begun(self, table: Table) -> Member:
+        """The samples before the first meeting; at least those of the first guess."""
+        model = self.model
+        times = np.unique(self._row_times[self._row_times >= model.strike_time(model.means)])
+        least = float(times[min(len(times) - 1, 3)])
+        self.horizon = max(least, self._meeting_after(table, model.means, -np.inf))
+        weights = self.weights(self.horizon)
+        fit = fit_shot(model, table, model.means, weights)
+        if fit is None:  # not playable as guessed: balls in the cue's way do not count, so the speed is out of range
+            means = np.where(np.arange(len(model.means)) == 0, 0.5 * table.v_max, model.means)
+            fit = fit_shot(model, table, means, weights)
+        if fit is None:
+            rows = len(weights)
+            fit = ShotFit(model.means, np.full(rows, 1e3), np.zeros((rows, len(model.names))))
+            self.given_up = True
+        return Member(model, fit, weights)
+
+    def _meeting_after(self, table: Table, nuisances: Floats, time: float) -> float:
+        """s of the data: the first meeting after a time; infinite if no sample comes after it."""
+        result = self.model.run(table, nuisances)
+        if result is None:
+            return np.inf
+        strike = self.model.strike_time(nuisances)
+        later = [strike + at for at, _ in self.model.meetings(result) if strike + at > time + 1e-9]
+        return later[0] if later and later[0] < self._row_times.max() else np.inf
+
+    def root_mean_square(self, fit: ShotFit, weights: Floats) -> float:
+        """Of the samples that count, in standard deviations."""
+        n = self.model.n_samples
+        return float(np.sqrt(np.sum(fit.residuals[:n] ** 2) / max(1, int(np.count_nonzero(weights[:n])))))
+
+    def follows(self, fit: ShotFit, weights: Floats) -> bool:
+        """Whether the model follows the paths."""
+        return self.root_mean_square(fit, weights) < max(FOLLOWED, FOLLOWED_METRES / self.model.sigma)
+
+    def extend(self, table: Table) -> None:
+        """Match everything if the model is near, else up to one meeting further."""
+        self._before = self.member.fit, self.horizon
+        whole = self.weights(np.inf)
+        nuisances = self.member.fit.nuisances
+        found = self.model.residuals(table, nuisances)
+        if found is None:
+            return
+        fit = ShotFit(nuisances, whole * found, self.member.fit.slopes)
+        if self.root_mean_square(fit, whole) < max(NEAR, NEAR_METRES / self.model.sigma):
+            self._take(fit, np.inf)
+            return
+        horizon = self._meeting_after(table, nuisances, self.horizon)
+        self._take(ShotFit(nuisances, self.weights(horizon) * found, self.member.fit.slopes), horizon)
+
+    def _take(self, fit: ShotFit, horizon: float) -> None:
+        """The weight of a shot that is off is lowered for all its rows."""
+        self.horizon = horizon
+        weights = self.weights(horizon)
+        mild = min(1.0, MILD / self.root_mean_square(fit, weights)) if np.any(fit.residuals) else 1.0
+        self.member.weights = mild * weights
+        self.member.fit = ShotFit(fit.nuisances, mild * fit.residuals, mild * fit.slopes)
+
+    def judge(self, table: Table, rng: np.random.Generator) -> None:
+        """After the parameters moved: is it followed up to the horizon? If not, search; else step back."""
+        weights = self.weights(self.horizon)
+        fit = fit_shot(self.model, table, self.member.fit.nuisances, weights, steps=3)
+        if fit is None or not self.follows(fit, weights):
+            about, horizon = self._before
+            found = search_shot(self.model, table, about, weights, SPREADS[self._failed % len(SPREADS)], rng)
+            if found is not None and (fit is None or found.cost < fit.cost):
+                fit = found
+            if fit is None or not self.follows(fit, weights):
+                self._failed += 1
+                self.given_up = self._failed > PATIENCE
+                self._take(about, horizon)
+                return
+        self._failed = 0
+        self._take(fit, self.horizon)
+
+    def silence(self) -> None:
+        """Let none of its samples count."""
+        weights = self.member.weights.copy()
+        weights[: self.model.n_samples] = 0.0
+        fit = self.member.fit
+        still = (weights > 0.0).astype(float)
+        self.member.weights = weights
+        self.member.fit = ShotFit(fit.nuisances, still * fit.residuals, still[:, None] * fit.slopes)
+
+    def look_again(self, table: Table, before: ShotFit, weights: Floats, rng: np.random.Generator) -> None:
+        """Count again, from the best of several starts at these parameters; the whole if the model follows it."""
+        whole = self.weights(np.inf)
+        best = self._best(table, before, whole, rng)
+        if self.follows(best, whole):
+            self.horizon, self.member.weights, self.member.fit = np.inf, whole, best
+        else:
+            self.member.weights, self.member.fit = weights, self._best(table, before, weights, rng)
+
+    def _best(self, table: Table, before: ShotFit, weights: Floats, rng: np.random.Generator) -> ShotFit:
+        found = [fit_shot(self.model, table, before.nuisances, weights)]
+        found += [search_shot(self.model, table, before, weights, spread, rng) for spread in SPREADS]
+        residuals = np.full(len(weights), 1e3)
+        worst = ShotFit(before.nuisances, residuals, before.slopes)
+        return min((fit for fit in found if fit is not None), key=lambda fit: fit.cost, default=worst)
+
+    @property
+    def counted(self) -> int:
+        """Rows of samples that count."""
+        return int(np.sum(self.member.weights[: self.model.n_samples] > 0.0))
+
+    @property
+    def excess(self) -> float:
+        """By how many of its own standard deviations the cost is above what noise alone gives."""
+        square = self.root_mean_square(self.member.fit, self.member.weights) ** 2
+        return (square - 1.0) * float(np.sqrt(self.counted / 2.0))
+
+    def drop_strays(self) -> bool:
+        """Leave out single samples far off a path that is otherwise followed; whether there were any."""
+        rows = np.abs(self.member.fit.residuals[: self.model.n_samples])
+        worst = np.zeros(len(self.outliers))
+        np.maximum.at(worst, self.model.sample_of_row, rows)
+        strays = np.zeros(len(worst), bool)
+        for ball in self.model.shot.numbers:
+            mine = self.model.shot.of_ball(ball)
+            beside = np.pad(worst[mine], 1)
+            strays[mine] = (worst[mine] > STRAY) & (np.maximum(beside[:-2], beside[2:]) < NO_STRAY)
+        if not strays.any():
+            return False
+        self.outliers |= strays
+        self._base[: self.model.n_samples][strays[self.model.sample_of_row]] = 0.0
+        return True
+
+    def settle(self, table: Table) -> None:
+        """Full weight up to the horizon, for the last fit."""
+        weights = self.weights(self.horizon)
+        fit = fit_shot(self.model, table, self.member.fit.nuisances, weights, steps=2)
+        if fit is not None:
+            self.member.weights, self.member.fit = weights, fit
+
+
+def match(
+    table: Table,
+    parameters: tuple[Parameter, ...],
+    staged: list[StagedShot],
+    rng: np.random.Generator,
+    observer: Observer,
+) -> JointFit:
+    """All shots matched as far as they can be, and the parameters fitted to that."""
+    joint = JointFit(table, parameters, [shot.member for shot in staged])
+    for number in range(MOST_ROUNDS):
+        waiting = [shot for shot in staged if not shot.is_whole and not shot.given_up]
+        if not waiting:
+            break
+        done = sum(shot.is_whole for shot in staged)
+        observer(f"{done} of {len(staged)} shots followed to their end", number / MOST_ROUNDS)
+        for shot in waiting:
+            shot.extend(joint.table)
+        joint.descend(COARSE_STEPS)
+        for shot in waiting:
+            shot.judge(joint.table, rng)
+    observer("all shots together", 0.8)
+    for shot in staged:
+        shot.settle(joint.table)
+    joint.descend(FINE_STEPS)
+    joint.solve(FINE_EVALUATIONS, FINE)
+    dropped = [shot.drop_strays() for shot in staged]
+    if any(dropped):
+        for shot in staged:
+            shot.settle(joint.table)
+        joint.descend(FINE_STEPS)
+        joint.solve(FINE_EVALUATIONS, FINE)
+    for number in range(MOST_RELEASES):
+        caught = _caught(joint, staged)
+        observer(f"{len(caught)} shots caught between two orders of events", 0.85 + 0.05 * number)
+        if not caught or not _release(joint, caught, rng):
+            break
+    return joint
+
+
+def _caught(joint: JointFit, staged: list[StagedShot]) -> list[StagedShot]:
+    """The worst of the shots that stop short, fit badly, or lie at an edge of two orders: a third of all at most."""
+    badness = [
+        np.inf if not shot.is_whole else max(shot.excess / BADLY, joint.promised(number) / CAUGHT)
+        for number, shot in enumerate(staged)
+    ]
+    worst = np.argsort(badness)[::-1][: max(1, len(staged) // 3)]
+    return [staged[number] for number in worst.tolist() if badness[number] > 1.0]
+
+
+def _release(joint: JointFit, caught: list[StagedShot], rng: np.random.Generator) -> bool:
+    """Fit the parameters to the other shots alone, find these their order there, and fit all; whether that is better.
+
+    A shot in a wrong order pulls the parameters to where it fits best; only without it is the right order better.
+    """
+    values, before = joint.values, (-sum(shot.counted for shot in caught), joint.cost)
+    kept = [(shot, shot.horizon, shot.member.fit, shot.member.weights) for shot in caught]
+    silent = [shot.member for shot in caught]
+    others = [(one, one.fit) for one in joint.members if one not in silent]
+    for shot in caught:
+        shot.silence()
+    joint.descend(FINE_STEPS)
+    for shot, _, fit, weights in kept:
+        shot.look_again(joint.table, fit, weights, rng)
+    joint.descend(FINE_STEPS)
+    joint.solve(FINE_EVALUATIONS, FINE)
+    if (-sum(shot.counted for shot in caught), joint.cost) < (before[0], before[1] - CAUGHT):
+        return True
+    for shot, horizon, fit, weights in kept:
+        shot.horizon, shot.member.fit, shot.member.weights = horizon, fit, weights
+    for member, fit in others:
+        member.fit = fit
+    joint.take(values)
+    return False
