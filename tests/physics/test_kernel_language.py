@@ -23,6 +23,9 @@ NUMPY = {"nan", "full", "int64", "float64"}
 BUILTINS = {"pow", "sum", "round", "divmod"}
 """Functions that would be the library's, or depend on an order."""
 
+PLACES = {("tasks.py", "last[i] // stride"), ("tasks.py", "trace.shape[1] // stride")}
+"""Quotients of whole numbers by a variable: the rows of a trace, whose width differs by the kind of table."""
+
 REMAINDERS = {("angles.py", "angle %= 360.0")}
 """``fmod`` is exact (IEEE 754, 5.3.1), but slow: where a remainder may stand."""
 
@@ -57,6 +60,8 @@ def forbidden(node: ast.AST, file: str) -> str | None:
 
 
 def forbidden_operator(node: ast.BinOp | ast.AugAssign, file: str) -> str | None:
+    if (file, ast.unparse(node)) in PLACES:
+        return None
     if isinstance(node.op, ast.Mod) and (file, ast.unparse(node)) in REMAINDERS:
         return None
     if (
@@ -110,6 +115,7 @@ def test_numbers_of_columns_stand_in_the_layout_alone():
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name):
                 continue
-            if node.func.id.startswith(("load", "store")) and isinstance(node.args[1], ast.Constant):
+            reads = node.func.id.startswith(("load", "store")) and len(node.args) > 1
+            if reads and isinstance(node.args[1], ast.Constant):
                 found.append(f"{name_of(path)}:{node.lineno}: {ast.unparse(node)}")
     assert found == []
