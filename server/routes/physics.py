@@ -93,5 +93,5 @@ async def min_elevation(
 
 async def _answered(context: Context, work: Callable[[], BaseModel]) -> Response:
     """The message that `work` makes, as JSON, both by a thread of the physics."""
-    content = await context.physics.run(lambda: work().model_dump_json().encode())
+    content = await context.physics.run(lambda: context.kernels.awaited(work).model_dump_json().encode())
     return Response(content, media_type="application/json")

@@ -8,7 +8,7 @@ import physics
 from physics.self_test import SelfTest
 from server.errors import Unavailable
 from server.services.runtime import warmup
-from server.services.runtime.warmup import Kernels, KernelsCompiling
+from server.services.runtime.warmup import Kernels, KernelsMissing
 
 PASSED = SelfTest(ok=True, digest="0" * 64, events=1)
 
@@ -42,13 +42,13 @@ def test_the_first_table_with_jaws_has_its_kernels_compiled_once(compiler):
     done, runs = compiler
     kernels = Kernels()
     for _ in range(3):
-        with pytest.raises(KernelsCompiling, match="takes minutes") as refused:
+        with pytest.raises(KernelsMissing, match="takes minutes") as refused:
             kernels.require(physics.Table.nine_foot())
         assert refused.value.seconds == 15
     assert (refused.value.status, refused.value.code) == (503, "unavailable")
     assert kernels.are_loading
     done.set()
-    kernels.require(physics.Table.nine_foot())
+    assert kernels.awaited(lambda: kernels.require(physics.Table.nine_foot())) is None
     assert runs == [True]
     assert kernels.jaws.tested == PASSED
 
@@ -58,7 +58,7 @@ def test_a_request_waits_for_kernels_that_lie_in_the_cache(compiler, monkeypatch
     monkeypatch.setattr(warmup, "is_compiled", lambda jaws: True)
     kernels = Kernels()
     threading.Timer(0.3, done.set).start()
-    kernels.require(physics.Table.nine_foot())
+    kernels.awaited(lambda: kernels.require(physics.Table.nine_foot()))
     assert kernels.jaws.ready.is_set()
 
 
@@ -67,7 +67,7 @@ def test_kernels_that_do_not_work_are_told_of(monkeypatch, caplog):
     monkeypatch.setattr(warmup, "is_compiled", lambda jaws: True)
     kernels = Kernels()
     with pytest.raises(Unavailable, match="the log says why"):
-        kernels.require(physics.Table.seven_foot())
+        kernels.awaited(lambda: kernels.require(physics.Table.seven_foot()))
     assert "two answers" in caplog.text
 
 

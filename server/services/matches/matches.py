@@ -27,8 +27,12 @@ log = logging.getLogger("pooliad.server.matches")
 
 def create(context: Context, command: Command) -> Answer:
     """A match by the organiser, which starts at once, or a challenge by one of the two agents."""
-    with context.writing() as writing:
-        answer = once(writing.connection, command, lambda: _created(writing, command))
+
+    def make() -> Answer:
+        with context.writing() as writing:
+            return once(writing.connection, command, lambda: _created(writing, command))
+
+    answer = context.kernels.awaited(make)
     _announce(context, answer)
     return answer
 

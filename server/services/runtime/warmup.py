@@ -3,21 +3,24 @@
 import gc
 import logging
 import threading
-from typing import Final
+from collections.abc import Callable
+from typing import Final, TypeVar
 
 from physics import Table
 from physics.engine import is_compiled
 from physics.self_test import SelfTest, self_test
 from server.errors import Unavailable
 
+Answer = TypeVar("Answer")
+
 log = logging.getLogger("pooliad.server.warmup")
 
-LOADING_SECONDS: Final = 10.0
-"""How long a request waits for kernels that lie compiled in the cache: it takes them a second."""
+LOADING_SECONDS: Final = 60.0
+"""How long a request waits for kernels that lie compiled in the cache: it takes them a second or two."""
 
 
-class KernelsCompiling(Unavailable):
-    """What the request needs is being compiled, once for this processor."""
+class KernelsMissing(Unavailable):
+    """What the request needs is being loaded, or compiled, once for this processor."""
 
     seconds = 15
 
@@ -49,14 +52,17 @@ class KernelSet:
                 self._thread.start()
 
     def require(self) -> None:
-        """Load them if need be; raises `Unavailable` where they must be compiled first, or do not work."""
+        """Load them if need be; raises `Unavailable` until they are there, or if they do not work."""
         self.start()
-        if is_compiled(self._jaws):
-            self._settled.wait(LOADING_SECONDS)
         if self.failed.is_set():
             raise Unavailable("the physics of this table could not be loaded; the log says why")
         if not self.ready.is_set():
-            raise KernelsCompiling("the physics of this table is compiled for this processor, once; it takes minutes")
+            raise KernelsMissing("the physics of this table is compiled for this processor, once; it takes minutes")
+
+    def wait(self) -> None:
+        """Until they are loaded, if they lie compiled in the cache; what takes minutes is not waited for."""
+        if is_compiled(self._jaws):
+            self._settled.wait(LOADING_SECONDS)
 
     @property
     def is_loading(self) -> bool:
@@ -92,6 +98,14 @@ class Kernels:
         """See `KernelSet.require`: for what is not worth beginning before its strokes can be simulated."""
         if table.has_jaws:
             self.jaws.require()
+
+    def awaited(self, work: Callable[[], Answer]) -> Answer:
+        """What `work` returns, done again when the kernels it lacked are loaded: it waits with nothing in hand."""
+        try:
+            return work()
+        except KernelsMissing:
+            self.jaws.wait()
+            return work()
 
     @property
     def are_loading(self) -> bool:

@@ -42,8 +42,12 @@ MOST_GAMES: Final = 10_000
 def create(context: Context, command: Command) -> Answer:
     """A new event; no match is made before it is started."""
     command.caller.require_organiser()
-    with context.writing() as writing:
-        return once(writing.connection, command, lambda: _created(writing, command))
+
+    def make() -> Answer:
+        with context.writing() as writing:
+            return once(writing.connection, command, lambda: _created(writing, command))
+
+    return context.kernels.awaited(make)
 
 
 def start(context: Context, tournament_id: str, command: Command) -> Answer:
