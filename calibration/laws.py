@@ -21,7 +21,7 @@ class FittedLaw:
         law: its name. calibration: the table under it.
         worse: by how much more than under the best law a shot's mean square is, on average, in squares of the noise;
             error: of that mean, over shots. 0 for the best.
-        followed: part of the samples that the fit could use: one that is worse may leave more out.
+        followed: part of the shots that it explains.
     """
 
     law: str
