@@ -11,8 +11,10 @@ NOT_OF_THE_RULE = {
     *("STEPS_PER_EVENT", "ROUND_LIMIT"),
     *("DEEPER", "SOLVER_STEPS", "SETTLED_STEPS", "ROOT_RESIDUAL"),
     "ROUNDING_ACROSS",
+    *("LIFT", "PRESS_TIME", "RAIL_CAP", "PERCHED_AFTER"),
 }
-"""Limits that no shot reaches, what belongs to the solver, and what only jaws ask for."""
+"""Limits that no shot reaches, what belongs to the solver, what only jaws ask for, and flight's: of these
+`benchmarks.flights` says what the choices change."""
 
 
 @pytest.mark.parametrize(("module", "name", "factors"), constants.VARIED)

@@ -90,7 +90,7 @@ def test_simulate_takes_json_a_file_and_a_rack(tmp_path):
 def test_help_lists_the_tables_there_are(command):
     """From the physics itself: no second list of names."""
     told = " ".join(run(command, "--help").output.replace("│", " ").split())
-    assert f"{', '.join(NAMED)}, or JSON with parameters." in told
+    assert f"{', '.join(NAMED)}, JSON with parameters, or a TOML file of them." in told
 
 
 def test_simulate_between_jaws():

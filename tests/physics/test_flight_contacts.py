@@ -58,7 +58,7 @@ def is_tangency(case: dict[str, Any], time: float) -> bool:
 @pytest.mark.parametrize(
     "family", ["flying_cloth", "flying_flying", "nose_flying", "horn_flying", "horn_cloth", "drop_edge"]
 )
-def test_every_contact_is_found_and_none_invented(family: str) -> None:
+def test_every_contact_is_found_and_none_invented(family):
     wrong: list[tuple[str, float, object]] = []
     counted: Counter[bool] = Counter()
     for case in cases(family):
@@ -123,7 +123,7 @@ def octic_answer(case: dict[str, Any]) -> mpf | None:
     )
 
 
-def test_drawn_horns_agree_with_root_isolation_of_the_octic() -> None:
+def test_drawn_horns_agree_with_root_isolation_of_the_octic():
     """1,000 flights past horns of 1 to 30 mm, at 40 digits."""
     rng, found, none = np.random.default_rng(4), 0, 0
     for _ in range(1_000):
@@ -143,7 +143,7 @@ def test_drawn_horns_agree_with_root_isolation_of_the_octic() -> None:
     assert none > 200
 
 
-def test_a_ball_beside_the_noses_end_comes_to_the_nose_later() -> None:
+def test_a_ball_beside_the_noses_end_comes_to_the_nose_later():
     """The first fall within R, at 5.9 ms, is 28 mm before the nose's end; the hit is at 170.6 ms, 21 mm along it.
 
     FLIGHT Part II, 2.6: a solver that takes the first root and then looks where its foot is loses the hit.

@@ -85,7 +85,7 @@ def check_history(proxy, records):
         assert [answer["view"]["version"] for answer in ours] == list(range(2, len(ours) + 2))
         assert [line["entry"] for line in strokes_of(record)] == list(range(len(ours)))
         for answer, line in zip(ours, strokes_of(record), strict=True):
-            assert answer["stroke"]["shot"] == line.get("shot")
+            assert answer["view"]["strokes_since"][-1]["shot"] == line.get("shot")
     kept = set(by_key.values())
     assert all(one.body in kept for one in accepted if one.acknowledged)
     repeated = [len(list(group)) for _, group in itertools.groupby(sorted((one.path, one.key) for one in accepted))]

@@ -157,9 +157,8 @@ def test_a_bad_table_is_named_with_its_value(new_player, path, table, field, val
     assert fault["detail"].startswith(field)
 
 
-def test_the_physics_needs_a_token(server):
-    for path in ("/v1/simulate", "/v1/simulate/batch", "/v1/min-elevation"):
-        assert server.request("POST", path, json={}).status_code == 401
+def test_many_shots_need_a_token(server):
+    assert server.request("POST", "/v1/simulate/batch", json={}).status_code == 401
 
 
 def test_a_trace_of_tens_of_thousands_of_events_is_refused_by_name(new_player):

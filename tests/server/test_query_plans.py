@@ -259,7 +259,7 @@ def test_a_scan_is_seen(statements, database_kind):
     url, _ = statements
     scans = scans_of_sqlite if database_kind == "sqlite" else scans_of_postgresql
     for statement in (
-        "SELECT id FROM games WHERE status = 'running'",
+        "SELECT id FROM games WHERE version = 7",
         "SELECT id FROM matches WHERE lower(commitment) = '' ORDER BY created_at DESC LIMIT 5",
         "SELECT count(*) FROM moves",
     ):

@@ -146,7 +146,7 @@ def test_whose_declaration_is_always_refused_loses_at_last(tmp_path, hall, monke
     def spent(*_, **__):
         raise BudgetSpent(refusal, None)
 
-    monkeypatch.setattr(client.Pooliad, "play", spent)
+    monkeypatch.setattr(client.Pooliad, "act", spent)
     directory = begin(tmp_path / "cup", seconds=20.0)
     ledger = RemoteRunner(directory, hall.url, hall.organiser_token).run()
     assert [one.reason.value for one in ledger.event.counted] == ["forfeit"] * 2
@@ -171,14 +171,14 @@ class Thrifty(RandomAgent):
 
 def test_shots_whose_declaration_was_carried_out_unanswered_are_not_declared_again(tmp_path, hall, monkeypatch):
     """Seen: the count lagged behind the server's for the rest of the game, until the server took no action more."""
-    play, declared = client.Pooliad.play, []
+    act, declared = client.Pooliad.act, []
 
     def unanswered(self, game, version, action, *, simulated=0):
         declared.append(simulated)
-        play(self, game, version, action, simulated=simulated)
+        act(self, game, version, action, simulated=simulated)
         raise ConnectionFailed("POST", f"/v1/games/{game}", TimeoutError())
 
-    monkeypatch.setattr(client.Pooliad, "play", unanswered)
+    monkeypatch.setattr(client.Pooliad, "act", unanswered)
     (tmp_path / "thrifty.py").write_text(THRIFTY)
     entrants = ["random", {"name": "thrifty", "agent": "thrifty:Thrifty"}]
     hosting = {"thrifty": {"environment": {"PYTHONPATH": str(tmp_path)}}}
