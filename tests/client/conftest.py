@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 import uuid
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -127,6 +128,13 @@ def server_installed():
         require(find_spec(name) is not None, f"{name}, of the server extra")
 
 
+def until_ready(url):
+    """Until the kernels are loaded: beside that a busy machine has no second left for what waits five."""
+    end = time.monotonic() + 600.0
+    while httpx2.get(f"{url}/readyz").status_code != 200 and time.monotonic() < end:
+        time.sleep(0.2)
+
+
 @pytest.fixture(scope="session")
 def hall(server_installed, tmp_path_factory):
     """One server process for the whole session."""
@@ -144,6 +152,7 @@ def hall(server_installed, tmp_path_factory):
     with subprocess.Popen(command, stdout=subprocess.PIPE, env=environment, text=True) as process:
         try:
             served = Hall(json.loads(process.stdout.readline())["url"])
+            until_ready(served.url)
             yield served
             served.organiser.close()
         finally:
