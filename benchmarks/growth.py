@@ -183,7 +183,7 @@ class Table:
         self._tries = 0
 
     async def play(self, requests: int) -> int:
-        """Send so many requests; how many strokes were played."""
+        """Send `requests` requests; returns the number of strokes played."""
         played = 0
         for _ in range(requests):
             view = self._view or await current_view(self._wire, self._players)

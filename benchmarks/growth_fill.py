@@ -17,7 +17,7 @@ EVERYTHING_BEFORE: Final = 1_600_000_000 * STEP
 
 
 def fill(database: Path, count: int) -> None:
-    """Write so many finished games, each in a match of its own, into a database that has a finished match."""
+    """Write finished games into a database that already has one finished match; each gets its own match."""
     with contextlib.closing(sqlite3.connect(database)) as connection:
         connection.execute("PRAGMA synchronous = OFF")
         connection.execute(f"CREATE TEMP TABLE n AS WITH RECURSIVE {_series('n', count)} SELECT n FROM n")

@@ -26,7 +26,8 @@ def fitted_parameters(table: Table, names: Sequence[str]) -> tuple[Parameter, ..
     """The parameters of these names.
 
     Raises:
-        InvalidFit: a name is none of a number that ``table.replace`` changes, or stands twice; or there is none.
+        InvalidFit: the list is empty, names a parameter twice, or names something other than a number that
+            ``table.replace`` changes.
     """
     ranges = _ranges(table)
     if not names:

@@ -1,6 +1,6 @@
 """Paths as a camera would see them of shots that were simulated: to plan a session, and to test a calibration.
 
-What comes out is no measurement, and whoever shows it says so.
+The paths are simulated, not measured. Say so wherever you show them.
 """
 
 import dataclasses

@@ -270,7 +270,7 @@ def min_elevation(
 
 
 def ladder() -> ApiCall[wire.Ladder]:
-    """The agents by what their rated games prove, the highest first."""
+    """The agents by rating, the highest first."""
     return ApiCall("GET", "/v1/ladder", _reader(wire.Ladder))
 
 

@@ -28,7 +28,7 @@ class TableCommand(TyperCommand):
 
 
 def load_table(text: str) -> "Table":
-    """The table named, described in JSON, or in a TOML file; leaves the command when there is none."""
+    """Read a table from its name, from JSON or from a TOML file. The command ends if that is not a table."""
     import json
     from pathlib import Path
 

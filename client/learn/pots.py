@@ -118,6 +118,9 @@ def _at(table: Table, state: TableState, target: Point, speed: float, place: Poi
 
 
 def _raised(table: Table, state: TableState, speed: float, phi: float) -> Shot:
-    """A stroke in the middle, a little above the least elevation; flat where there is none, for `act` to turn."""
+    """A stroke at the middle of the ball, `MARGIN` degrees above the least elevation.
+
+    Where the cue is blocked at every elevation the stroke is flat, and `act` turns it.
+    """
     least = min_elevation(table, state, phi)
     return Shot(speed, phi, 0.0 if math.isnan(least) else min(table.theta_max, least + MARGIN))

@@ -85,7 +85,7 @@ def _reader(request: Request) -> Caller | None:
 Authenticated = Annotated[Caller, Depends(_caller)]
 """Somebody with a valid token; 401 for anybody else."""
 Simulating = Annotated[Caller, Depends(_simulating)]
-"""Whoever has single shots simulated: anybody, or who plays or organises, as the settings say."""
+"""The caller of single shots: anybody, or players and organisers only, as `public_physics` says."""
 SimulatingMany = Annotated[Caller, Depends(_simulating_many)]
 """Somebody who plays or organises: may send batches."""
 Visitor = Annotated[Caller | None, Depends(_visitor)]

@@ -13,5 +13,5 @@ router = APIRouter(prefix="/v1/ladder", tags=["agents"], dependencies=[ANYBODY])
 
 @router.get("", **describe(Unauthorized, token=False), summary="Agents by their rated games")
 def standing(context: ContextDep) -> Ladder:
-    """Ratings that move with every rated game, whoever plays whom; up to ten seconds old."""
+    """Ratings from the newest rated games, at most ten seconds old."""
     return ladder.read(context)

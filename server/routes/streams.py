@@ -81,7 +81,7 @@ def _sequence(header: str | None, query: str | None) -> int:
 
 
 def at_once(request: Request) -> Write:
-    """How to write to whoever sent a request, past the framework: 100 spectators are 100 writes and no more."""
+    """Return what writes to the request's sender past the framework: 100 spectators cost 100 writes and no more."""
     write: Write = request.scope.get("extensions", {}).get(WRITE, never)
     return write
 

@@ -47,7 +47,7 @@ class Caller:
 
     @classmethod
     def stranger(cls, address: str) -> "Caller":
-        """Whoever comes without a token, by address: may do what needs none."""
+        """A caller without a token, known by address. It may do what needs no token."""
         return cls(address, "", frozenset())
 
     @property

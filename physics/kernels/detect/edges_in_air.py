@@ -2,7 +2,7 @@
 
 A cushion is a plate at the height of its nose whose edge in plan is nose line, horn and facing; a ball touches it when
 its centre is R from the edge (docs/physics.md, eq. 47-49). In plan a flight is straight. Heights are ``Rise``s above
-the nose. Every function gives the first time in [0, ``lasts``], infinity if there is none before ``limit``.
+the nose. Every function returns the first contact in [0, ``lasts``], or infinity if it does not come before ``limit``.
 """
 
 import math

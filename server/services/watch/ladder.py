@@ -1,4 +1,4 @@
-"""The ladder: what the newest rated games prove about whoever played them."""
+"""The ladder: ratings of agents from the newest rated games."""
 
 from typing import Final
 

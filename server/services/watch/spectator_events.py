@@ -57,7 +57,7 @@ class Marks(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SpectatorState:
-    """What the spectators of a game know already: its marks, and its strokes up to a sequence, so many of them."""
+    """What the spectators of a game know already: its marks, the sequence of its last stroke, the number of strokes."""
 
     marks: Marks
     sequence: int

@@ -122,7 +122,7 @@ class Spectator:
             self._waiting.set_result(None)
 
     async def next(self, seconds: float) -> bytes | None:
-        """The next events, or a keep-alive after so many seconds; None at the end of the stream."""
+        """The next events, or a keep-alive if `seconds` pass without one; None at the end of the stream."""
         if not self._backlog:
             loop = asyncio.get_running_loop()
             self._waiting = loop.create_future()
