@@ -8,6 +8,7 @@ import io
 import json
 import math
 from collections.abc import Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -24,6 +25,8 @@ STROKE_COLUMNS: Final = ("v", "phi", "theta", "a", "b")
 SETTINGS: Final = ("length", "time", "frame", "sigma", "strike")
 LEAST_SAMPLES = 4
 """Samples of the cue ball in a shot."""
+LONGEST_SHOT = 300.0
+"""s. No shot lasts a minute; more is a wrong unit, or two shots of one name."""
 MOST_OFF = 0.2
 """Part of the samples that may lie off the table; more are a wrong unit or frame."""
 
@@ -67,6 +70,8 @@ def _from_csv(name: str, text: str) -> tuple[Frame, list[tuple[str, Row]], dict[
     begin = 0
     while begin < len(lines) and (lines[begin].lstrip().startswith("#") or not lines[begin].strip()):
         key, is_setting, value = lines[begin].lstrip("# \t").partition("=")
+        if is_setting and key.strip() in settings:
+            raise InvalidData(f"{name}, line {begin + 1}, {key.strip()}", value.strip(), "must stand once")
         if is_setting:
             settings[key.strip()] = f"{name}, line {begin + 1}", value.strip()
         begin += 1
@@ -140,7 +145,7 @@ def _frame(name: str, settings: Mapping[str, tuple[str, Any]]) -> Frame:
 
 def _from_json(name: str, text: str) -> tuple[Frame, list[tuple[str, Row]], dict[str, IntendedStroke]]:
     try:
-        data = json.loads(text)
+        data = json.loads(text, object_pairs_hook=partial(_once, name))
     except json.JSONDecodeError as error:
         raise InvalidData(f"{name}, line {error.lineno}, column {error.colno}", error.msg, "must be JSON") from None
     except RecursionError:
@@ -149,11 +154,14 @@ def _from_json(name: str, text: str) -> tuple[Frame, list[tuple[str, Row]], dict
         raise InvalidData(name, data, "must be an object with settings and a list of shots")
     frame = _frame(name, {key: (name, value) for key, value in data.items() if key != "shots"})
     rows: list[tuple[str, Row]] = []
-    intended = {}
+    intended, names = {}, set()
     for place, shot in enumerate(data["shots"]):
         where = f"{name}, shots[{place}]"
         if not isinstance(shot, dict) or not isinstance(shot.get("samples"), list):
             raise InvalidData(where, shot, "must be an object with shot and samples, perhaps stroke")
+        if _named(shot)["shot"] in names:
+            raise InvalidData(f"{where}.shot", shot["shot"], "must stand once")
+        names.add(_named(shot)["shot"])
         for number, sample in enumerate(shot["samples"]):
             at = f"{where}.samples[{number}]"
             if not isinstance(sample, list) or len(sample) not in (4, 5):
@@ -162,6 +170,16 @@ def _from_json(name: str, text: str) -> tuple[Frame, list[tuple[str, Row]], dict
         if shot.get("stroke") is not None:
             intended[_named(shot)["shot"]] = _stroke(f"{where}.stroke", shot["stroke"], frame)
     return frame, rows, intended
+
+
+def _once(name: str, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object of JSON, whose members must stand once."""
+    members: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in members:
+            raise InvalidData(f"{name}, {key}", value, "must stand once")
+        members[key] = value
+    return members
 
 
 def _named(shot: Mapping[str, Any]) -> dict[str, str]:
@@ -242,5 +260,8 @@ def _shot(
     seen = int((balls == 0).sum())
     if seen < LEAST_SAMPLES:
         raise InvalidData(f"{name}, shot {shot}", seen, f"must have at least {LEAST_SAMPLES} samples of the cue ball")
+    if (lasts := float(times[-1] - times[0])) > LONGEST_SHOT:
+        allowed = f"must last at most {LONGEST_SHOT:g} s from its first sample to its last; see the unit of time"
+        raise InvalidData(f"{name}, shot {shot}", f"{lasts:g} s", allowed)
     heights = frame.length * places[:, 2]
     return ObservedShot(shot, times, balls, frame.places(table, places[:, :2]), heights, stroke)

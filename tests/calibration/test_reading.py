@@ -74,12 +74,32 @@ def test_a_frame_along_the_table_is_turned_and_not_mirrored(tmp_path):
             SETTINGS + "".join(ROWS.splitlines(keepends=True)[:3]),
             "shot 1 = 2: must have at least 4 samples of the cue ball",
         ),
+        (SETTINGS + "# length = m\n" + ROWS, "paths.csv, line 4, length = 'm': must stand once"),
+        (SETTINGS + ROWS + "1,-1e9,0,500,1500\n", "shot 1 = '1e+09 s': must last at most 300 s"),
         (SETTINGS + "# sigma = -1\n" + ROWS, "line 4, sigma = '-1': must be from 0.01 to 100 mm"),
     ],
 )
 def test_bad_data_get_a_sentence_with_line_and_column(tmp_path, text, words):
     with pytest.raises(InvalidData) as refused:
         read(tmp_path, text)
+    assert words in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('{"length": "mm", "length": "m", "shots": []}', "paths.json, length = 'm': must stand once"),
+        (
+            '{"length": "mm", "time": "s", "frame": "corner", "shots": [{"shot": 1, "samples": []}, '
+            '{"shot": 1, "samples": []}]}',
+            "paths.json, shots[1].shot = 1: must stand once",
+        ),
+    ],
+)
+def test_nothing_in_json_is_said_twice(tmp_path, text, words):
+    """The last one would win, and the first be lost without a word."""
+    with pytest.raises(InvalidData) as refused:
+        read(tmp_path, text, "paths.json")
     assert words in str(refused.value)
 
 
