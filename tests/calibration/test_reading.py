@@ -90,8 +90,9 @@ def test_bad_data_get_a_sentence_with_line_and_column(tmp_path, text, words):
     [
         ('{"length": "mm", "length": "m", "shots": []}', "paths.json, length = 'm': must stand once"),
         (
-            '{"length": "mm", "time": "s", "frame": "corner", "shots": [{"shot": 1, "samples": []}, '
-            '{"shot": 1, "samples": []}]}',
+            '{"length": "mm", "time": "s", "frame": "corner", "shots": ['
+            + ", ".join(['{"shot": 1, "samples": []}'] * 2)
+            + "]}",
             "paths.json, shots[1].shot = 1: must stand once",
         ),
     ],
