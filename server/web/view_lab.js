@@ -55,6 +55,7 @@ export class LabView {
     this.form = new ShotForm(() => this.changed());
     this.preview = new Preview((answer, elevation, problem) => this.previewed(answer, elevation, problem));
     this.problem = el("p", { class: "refusal", role: "alert" });
+    this.misread = el("p", { class: "refusal", role: "alert" });
     this.outcome = el("p", { role: "status" });
     this.events = el("ol", { class: "events" });
     this.lowest = /** @type {HTMLInputElement} */ (el("input", { type: "checkbox", checked: true, onchange: () => this.changed() }));
@@ -64,14 +65,14 @@ export class LabView {
           el("div", { class: "controls" },
             el("button", { type: "button", class: "first", onclick: () => this.play() }, "Play the shot"),
             el("button", { type: "button", onclick: () => this.changed() }, "Back to the position"))),
-        el("div", { class: "side-column" }, this.tablePart(), this.problem, this.outcome, this.ballPart(), this.form.element,
+        el("div", { class: "side-column" }, this.tablePart(), this.misread, this.problem, this.outcome, this.ballPart(), this.form.element,
           el("label", { class: "check" }, this.lowest, "cue as low as it can be"), this.spreadPart(), this.textPart(),
           el("details", {}, el("summary", {}, "Events"), this.events))));
     this.stage.decorate = (scene) => this.decorate(scene);
     handle(this.stage, this.hands());
-    const problem = this.setUp(query);
+    const misread = this.setUp(query);
     this.changed();
-    if (problem) fill(this.problem, problem);
+    fill(this.misread, misread);
   }
 
   /** Begin as the address says. @param {string} query @returns {string} what is wrong with it */
@@ -211,7 +212,7 @@ export class LabView {
   changed() {
     this.heat = this.paths = this.answer = this.rows = null;
     this.spreading.withdraw();
-    for (const said of [this.problem, this.fallen, this.unread]) fill(said);
+    for (const said of [this.misread, this.problem, this.fallen, this.unread]) fill(said);
     this.stage.rest(this.balls);
     this.preview.ask(this.table, this.balls, this.form.shot, this.lowest.checked);
     this.writeText();

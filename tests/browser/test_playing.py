@@ -92,6 +92,7 @@ def test_only_the_choice_on_show_looks_out_for_challenges(new_page, server):
     """Seen: the loop of one before went on, and entered another match while a result was shown."""
     page = new_page()
     page.goto(f"{server.url}/#/lab")
+    page.get_by_text("events in").wait_for()  # what the laboratory asks is answered before nobody answers any more
     path = page.evaluate("document.querySelector('script[type=module]').src").rpartition("/")[0] + "/view_play.js"
     assert page.evaluate(CHOOSE_AGAIN, [path]) == 3 + 1
 
