@@ -4,6 +4,7 @@ import { ProblemError, call, command, get, identity, newKey, newSeed, signOut, t
 import { Aiming } from "./aiming.js";
 import { announce, el, fill, labelled } from "./dom.js";
 import { Latest } from "./latest.js";
+import { linkTo } from "./sharing.js";
 import { signInPanel, tokenPanel } from "./sign_in.js";
 import { describeTable, tableNames, tableTitle } from "./tables.js";
 import { GameView } from "./view_game.js";
@@ -40,9 +41,11 @@ export class PlayView {
 
   /** @param {string | null} game the address of a game: its players go on with it, everybody else watches */
   async open(game = null) {
+    if (this.closed) return null;
     const me = identity();
     if (game) {
       const match = me && (await matchOf(game));
+      if (this.closed) return null;
       if (match?.status !== "running" || !match.agents.includes(me.id)) return location.replace(`#/games/${game}`);
       return this.enter(match.id);
     }
@@ -135,12 +138,13 @@ export class PlayView {
 
   /** Wait for the match's game, then play it. @param {string} id */
   async enter(id) {
-    if (this.match) return;
+    if (this.match || this.closed) return;
     this.match = id;
     this.choice.withdraw();
     fill(this.top, el("h1", {}, "Play"), el("p", { role: "status" }, "Waiting for the opponent …"));
     while (!this.closed) {
       const match = await get(`/v1/matches/${id}`).catch(() => null);
+      if (this.closed) return;
       if (match?.status === "aborted") return this.over("The match was called off.");
       const game = match?.played.at(-1);
       if (game) {
@@ -305,8 +309,8 @@ async function matchOf(game) {
 
 /** What can be sent to anybody. @param {string} game */
 async function copyAddress(game) {
-  await navigator.clipboard?.writeText(`${location.origin}/#/games/${game}`).catch(() => {});
-  announce(`Copied: ${location.origin}/#/games/${game}`);
+  await navigator.clipboard?.writeText(linkTo(game)).catch(() => {});
+  announce(`Copied: ${linkTo(game)}`);
 }
 
 /** The agent of exactly this name. @param {string} name */
