@@ -8,12 +8,10 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page
 from support.axe import violations
-from support.players import Potter
+from support.short_games import short_game
 
 import physics
-from client.local_game import PlayedGame, play_game
-from referee import Action, EightBall, MatchSeed, NoiseModel
-from referee.game import Decision
+from client.local_game import PlayedGame
 
 TOLERANCE = 1e-9
 AT = """async ([table, entry, times]) => {
@@ -24,25 +22,6 @@ AT = """async ([table, entry, times]) => {
 
 
 SLIDE = "(slider, time) => { slider.value = time; slider.dispatchEvent(new Event('input')); }"
-
-
-def short_game(seed: int, actions: int, table: physics.Table | None = None) -> PlayedGame:
-    """A break and some strokes after it, then a concession; every tenth game on the historical table unless told."""
-    left = [actions]
-
-    def player(name):
-        potter = Potter(name)
-
-        def choose(view):
-            left[0] -= 1
-            return Action(decision=Decision.CONCEDE) if left[0] < 0 else potter(view)
-
-        return choose
-
-    if table is None:
-        table = physics.Table.fastfiz() if seed % 10 == 9 else physics.Table.olympiad()
-    chairs = (player(f"ann {seed}"), player(f"bob {seed}"))
-    return play_game(EightBall(table), chairs, MatchSeed.of(seed).game(0), NoiseModel(1.0), players=("ann 3", "bob 3"))
 
 
 def times_of(stroke: Any, chance: random.Random) -> list[float]:
