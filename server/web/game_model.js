@@ -17,6 +17,7 @@ export class GameModel {
     this.connected = null;
     /** @type {any} */
     this.result = null;
+    /** @type {[number, number] | number[] | null} games won in the match */
     this.score = [0, 0];
     /** Told, but not to be shown yet: clocks and result of what has not been seen. @type {{clocks?: any, toldAt?: number, result?: any}} */
     this.news = {};
@@ -58,6 +59,7 @@ export class GameModel {
     const { game: id, players, table, noise, number, match, start } = header;
     const made = new GameModel({ id, players: players.map(String), table, noise, number, games: null, match, balls: start.state });
     made.first = start;
+    made.score = null; // that of the match, which a record does not tell
     for (const line of lines.slice(1)) {
       if (line.type === "stroke") made.entries.push(line);
       if (line.type === "end") made.result = { outcome: line.outcome, score: null };

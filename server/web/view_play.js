@@ -163,7 +163,7 @@ export class PlayView {
     this.aiming = new Aiming(this.game.stage, (action) => this.act(action));
     this.game.idle = () => this.prepare();
     this.game.ended = () => this.turn && this.dropTurn();
-    const concede = el("button", { type: "button", onclick: () => this.concede(concede) }, "Concede");
+    const concede = this.conceding = el("button", { type: "button", onclick: () => this.concede(concede) }, "Concede");
     this.waiting = el("p", { class: "waiting", role: "status" }, "Waiting for the turn …");
     this.dock = el("div", { class: "dock" }, this.waiting, this.aiming.element);
     this.game.sitDown([this.aiming.said, this.aiming.spin.element], this.dock, el("div", { class: "choices" }, concede,
@@ -273,8 +273,11 @@ export class PlayView {
     this.turn = null;
     this.aiming?.end();
     const again = el("button", { type: "button", class: "first", onclick: () => this.again() }, "Play again");
-    if (this.game) fill(this.dock, el("p", { class: "waiting" }, "The match is over."), again);
-    else fill(this.top, el("h1", {}, "Play"), said && el("p", {}, said), again);
+    if (this.game) {
+      this.conceding.hidden = true;
+      fill(this.dock, el("p", { class: "waiting" }, "The match is over."), again);
+      scrollTo(0, 0); // to the result, from whatever was looked at below
+    } else fill(this.top, el("h1", {}, "Play"), said && el("p", {}, said), again);
   }
 
   again() {

@@ -1,9 +1,12 @@
 """Games of a few strokes, played here by players who aim at ghost balls, and given up then."""
 
+from collections.abc import Callable
+
 from support.players import Potter
 
 import physics
 from client.local_game import PlayedGame, play_game
+from protocol import View
 from referee import Action, EightBall, MatchSeed, NoiseModel
 from referee.game import Decision
 
@@ -14,10 +17,10 @@ def short_game(
     """A break and some strokes after it, then a concession; every tenth game on the historical table unless told."""
     left = [actions]
 
-    def player(name):
+    def player(name: str) -> Callable[[View], Action]:
         potter = Potter(name)
 
-        def choose(view):
+        def choose(view: View) -> Action:
             left[0] -= 1
             return Action(decision=Decision.CONCEDE) if left[0] < 0 else potter(view)
 
