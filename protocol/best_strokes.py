@@ -29,7 +29,7 @@ class BestStrokes(Message):
     """One stroke of each of the newest games that has one, the best first.
 
     Attributes:
-        strokes: none that ended its game, and no break.
+        strokes: that made the called ball; none that ended its game, and no break.
     """
 
     strokes: tuple[BestStroke, ...]

@@ -121,7 +121,8 @@ def test_strokes_that_changed_the_chances_are_marked_wherever_they_are_listed(pa
     assert listed.count() == len(marked)
     assert page.locator(".chances .swing").count() == len(marked)
     ends = {place for place in range(len(entries)) if entries[place]["game"]["outcome"] is not None}
-    best = max((place for place in gains if place and place not in ends), key=lambda place: gains[place])
+    made = [place for place in gains if place and entries[place]["ruling"]["made"] and place not in ends]
+    best = max(made, key=lambda place: gains[place])
     (stroke,) = [one for one in server.http.get("/v1/best-strokes").json()["strokes"] if one["game"] == game]
     assert stroke["number"] == best
     assert stroke["after"] - stroke["before"] == pytest.approx(gains[best], abs=1e-12)
@@ -144,6 +145,8 @@ def test_a_game_is_shown_in_a_frame_of_those_who_may(new_page, own_server_in_fra
     inside.get_by_role("heading", level=1).filter(has_text="framed ann").wait_for()
     assert inside.locator(".table canvas").is_visible()
     assert not inside.locator("header.bar").is_visible()
+    table, around_it = inside.locator(".table canvas").bounding_box(), around.locator("iframe").bounding_box()
+    assert table["y"] + table["height"] <= around_it["y"] + around_it["height"], "seen without scrolling"
     assert inside.locator("body").evaluate("async () => (await import('/web/api.js')).token()") is None
     policy = server.http.get("/").headers["content-security-policy"]
     assert f"frame-ancestors {origin};" in policy

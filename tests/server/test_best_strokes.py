@@ -26,13 +26,13 @@ def conceded(table, strokes):
 
 
 def gains(server, game, noise):
-    """What every stroke but breaks, decisions and the last one changed for its player, by number."""
+    """What every stroke that made its ball but not the game changed for its player, by number."""
     lines = [json.loads(line) for line in server.request("GET", f"/v1/games/{game}/record").text.splitlines()]
     entries = [line for line in lines if "entry" in line]
     found = {}
     for before, after in pairwise(entries):
         games = [Game.from_dict(each["game"]) for each in (before, after)]
-        if "decision" not in after["action"] and games[1].outcome is None:
+        if after["ruling"]["made"] and games[1].outcome is None:
             one, other = (VALUE(each, after["seat"], noise) for each in games)
             found[after["entry"]] = (other - one, one, other)
     return found

@@ -79,7 +79,7 @@ _KNOWN: Final[dict[str, _Best | None]] = {}
 
 
 def best_of(entries: Sequence[dict[str, Any]], noise: float) -> _Best | None:
-    """The stroke of a game after which its player's chance is highest above that before it.
+    """The stroke of a game that made what it called, and after which its player's chance rose the most.
 
     Args:
         entries: the lines of its record, in order.
@@ -88,7 +88,7 @@ def best_of(entries: Sequence[dict[str, Any]], noise: float) -> _Best | None:
     strokes = []
     for number, (before, after) in enumerate(pairwise(entries), 1):
         game = Game.from_dict(after["game"])
-        if after["action"].get("decision") is not None or game.outcome is not None:
+        if not after["ruling"]["made"] or game.outcome is not None:
             continue
         seat = after["seat"]
         chance = VALUE(Game.from_dict(before["game"]), seat, noise)
