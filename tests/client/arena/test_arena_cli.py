@@ -44,8 +44,13 @@ def test_an_event_from_its_file_to_its_report(cli, tmp_path):
     report = json.loads(cli("report", "cup", "--json").stdout)
     assert report["standings"] == played["standings"]
     assert report["luck"] == []
+    assert [one["record"] for one in report["moments"]], "turning points of games that were played"
+    for game in report["games"]:
+        assert (tmp_path / "cup" / game["replay"]).read_text().startswith("<!doctype html>"), game
     (tmp_path / "cup" / "games" / "r0-m0-p0-g1.jsonl").unlink()  # one game is enough here
-    lucky = json.loads(cli("report", "cup", "--luck", "--json").stdout)["luck"]
+    again = json.loads(cli("report", "cup", "--luck", "--replays", "0", "--json").stdout)
+    lucky = again["luck"]
+    assert [game["replay"] for game in again["games"]] == [None, None]
     assert [row["games"] for row in lucky] == [1, 1]
     assert sum(row["games"] * row["luck"] for row in lucky) == pytest.approx(0.0, abs=1e-9)
     assert "<html" in (tmp_path / "cup" / "report.html").read_text()
