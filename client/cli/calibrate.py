@@ -64,7 +64,7 @@ def calibrate(
             notes = (f"Fitted by pooliad calibrate to {len(found.shots)} shots of {data.name}.", *_notes(found))
             write_table(out, found.table, notes)
         if noise_out is not None and errors is not None:
-            _write_noise(noise_out, errors, data)
+            write_noise(noise_out, errors, data)
         if report is not None:
             title = f"Calibration of {start.name} by {data.name}"
             report.write_text(page(found, observations, title=title, laws=compared, errors=errors), encoding="utf-8")
@@ -79,7 +79,7 @@ def calibrate(
         raise typer.Exit(1)
 
 
-def _write_noise(file: Path, errors: "ErrorModel", data: Path) -> None:
+def write_noise(file: Path, errors: "ErrorModel", data: Path) -> None:
     """The standard deviations that the data tell; the others are the Olympiad's."""
     from referee.play.noise import SIGMA_MAX, Sigmas
     from referee.play.noise_file import write_sigmas
