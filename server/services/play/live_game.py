@@ -1,7 +1,7 @@
 """A game as the database has it: its rows, read into the referee's values and shown as messages."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Final
 
@@ -19,6 +19,7 @@ from server.services.matches import match_seeds
 from server.services.matches.secrecy import Holder, withheld
 from server.services.play import stored_strokes
 from server.services.play.clock import columns
+from server.services.play.long_strokes import MOST_EVENTS
 from server.store import locks
 from server.store.rows import GameRow
 from server.store.tables import agents, games, matches, moves
@@ -48,6 +49,14 @@ class Fixture:
     def rules(self) -> EightBall:
         """The referee on this match's table."""
         return EightBall(Table.from_dict(self.match.table))
+
+    @cached_property
+    def ordinary_rules(self) -> EightBall:
+        """The same, with strokes that end before they are long."""
+        rules = self.rules
+        if rules.limits.events <= MOST_EVENTS:
+            return rules
+        return replace(rules, limits=replace(rules.limits, events=MOST_EVENTS))
 
     @cached_property
     def noise(self) -> NoiseModel:
