@@ -44,7 +44,7 @@ def create_app(settings: Settings) -> FastAPI:
 
     Once it listens, `app.state.heartbeat.listening()` lets games go on, and `app.state.house.listening(url)` the bots.
     """
-    database = Database(settings.database, settings.database_seconds)
+    database = Database(settings.database, settings.database_seconds, group_commit=settings.group_commit)
     context = Context(
         settings,
         database,

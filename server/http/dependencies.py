@@ -9,6 +9,7 @@ from sqlalchemy import Connection
 
 from server.errors import Unauthorized, invalid_field
 from server.http.commands import Answer, Command
+from server.http.connections import GONE
 from server.http.describe import NUMBER, PAGE_LIMIT, PLACE, SEARCH
 from server.http.preferences import wants_minimal
 from server.security.addresses import origin
@@ -153,6 +154,12 @@ Simulation = Annotated[Command, Depends(_simulation)]
 def sender_of(request: Request) -> Sender:
     """Whoever asks for messages, looked up by the transaction that looks for them."""
     return lambda connection: _identified(connection, request)
+
+
+async def is_gone(request: Request) -> bool:
+    """Whether the sender has hung up."""
+    asked = request.scope.get("extensions", {}).get(GONE)
+    return await request.is_disconnected() if asked is None else bool(asked())
 
 
 def move_of(request: Request) -> Move:

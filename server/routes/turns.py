@@ -8,7 +8,7 @@ from fastapi import APIRouter, Query, Request, Response
 
 from protocol import TurnMessage
 from server.errors import Forbidden, Invalid, invalid_field
-from server.http.dependencies import context_of, sender_of
+from server.http.dependencies import context_of, is_gone, sender_of
 from server.http.describe import describe
 from server.http.express import Direct
 from server.services.play.turns import poll
@@ -32,7 +32,7 @@ async def next_message(
     """`turn` (until it is played), `game_over` or `match_over` (once each); 204 when there is none."""
     context = context_of(request)
     seconds = partial(_seconds, wait, context.settings.longest_wait)
-    message = await poll(context, sender_of(request), seconds, request.is_disconnected)
+    message = await poll(context, sender_of(request), seconds, partial(is_gone, request))
     return Response(status_code=204) if message is None else Response(message, media_type="application/json")
 
 

@@ -33,6 +33,10 @@ _PRIMARY: Final = 0xFF
 """The bits of SQLite's code that say what kind of failure it is (https://sqlite.org/rescode.html)."""
 
 
+class Overtaken(Exception):
+    """Somebody else was faster: the transaction is rolled back, to be tried again. No fault."""
+
+
 def nothing() -> None:
     """Nobody is to be told."""
 
@@ -42,7 +46,7 @@ def told(outage: Callable[[], None] = nothing) -> Iterator[None]:
     """Raise `Unavailable` where the database does not answer, after a call of `outage`; why is for the log alone."""
     try:
         yield
-    except (exc.DBAPIError, exc.TimeoutError) as error:
+    except (exc.DBAPIError, exc.TimeoutError, sqlite3.Error) as error:
         if not _is_outage(error):
             raise
         outage()
@@ -55,10 +59,12 @@ def unavailable() -> Unavailable:
     return Unavailable("the database does not answer; send the same request again, with the same Idempotency-Key")
 
 
-def _is_outage(error: exc.DBAPIError | exc.TimeoutError) -> bool:
+def _is_outage(error: exc.DBAPIError | exc.TimeoutError | sqlite3.Error) -> bool:
     """PostgreSQL's operational errors are about its operation; SQLite's include mistakes in a statement."""
+    if isinstance(error, sqlite3.Error):
+        return getattr(error, "sqlite_errorcode", 0) & _PRIMARY in _PASSING
     if isinstance(error, exc.TimeoutError) or error.connection_invalidated:
         return True
     if isinstance(error.orig, sqlite3.Error):
-        return getattr(error.orig, "sqlite_errorcode", 0) & _PRIMARY in _PASSING
+        return _is_outage(error.orig)
     return isinstance(error, exc.OperationalError)

@@ -1,5 +1,7 @@
 """SQLite: in WAL mode, flushed at every commit; one server process."""
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import Any
 
@@ -39,6 +41,19 @@ def _set_pragmas(wait: float, connection: Any, _record: object) -> None:
         connection.execute("PRAGMA journal_mode = WAL").close()
 
 
+@contextmanager
+def savepoint(connection: Connection) -> Iterator[Callable[[], None]]:
+    """Part of a transaction: what it wrote is taken back, and nothing else, by a call of what this gives.
+
+    An exception leaves it to the whole transaction to be taken back.
+    """
+    driver: Any = connection.connection.dbapi_connection
+    driver.execute("SAVEPOINT part")
+    yield lambda: driver.execute("ROLLBACK TO part")
+    driver.execute("RELEASE part")
+
+
 def _begin(connection: Connection) -> None:
     writes = connection.get_execution_options().get("pooliad_writes", False)
-    connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+    driver: Any = connection.connection.dbapi_connection  # the library takes longer to begin than to do the rest
+    driver.execute("BEGIN IMMEDIATE" if writes else "BEGIN")

@@ -23,13 +23,14 @@ class GameCache:
         """The game as it is committed (never from a transaction that has written); raises `NotFound`."""
         return self.of(connection, find_row(connection, game_id))
 
-    def of(self, connection: Connection, row: GameRow) -> LiveGame:
-        """The game whose row this is, just read by a transaction that has not written."""
+    def of(self, connection: Connection, row: GameRow, *, is_committed: bool = True) -> LiveGame:
+        """The game whose row this is; remembered where that is known to be as it was committed."""
         known = self._latest.get(row.id)
         if known is not None and known.row.version == row.version:
             return replace(known, row=row)
         live = read(connection, row)
-        self.keep(live)
+        if is_committed:
+            self.keep(live)
         return live
 
     def keep(self, live: LiveGame) -> None:

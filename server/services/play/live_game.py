@@ -1,7 +1,7 @@
 """A game as the database has it: its rows, read into the referee's values and shown as messages."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Final
 
@@ -21,6 +21,7 @@ from server.services.play import stored_strokes
 from server.services.play.clock import columns
 from server.services.play.long_strokes import MOST_EVENTS
 from server.store import locks
+from server.store.prepared import Prepared
 from server.store.rows import GameRow
 from server.store.tables import agents, games, matches, moves
 
@@ -38,12 +39,14 @@ class Fixture:
         players: the agents' names, by seat.
         score: of the match, by seat.
         withheld: until whose end its noise is kept back.
+        game_terms: what views say of them, by game, once it has been asked for.
     """
 
     match: Row[Any]
     players: tuple[str, str]
     score: tuple[float, float]
     withheld: Holder | None
+    game_terms: dict[str, GameTerms] = field(default_factory=dict, init=False, compare=False, repr=False)
 
     @cached_property
     def rules(self) -> EightBall:
@@ -129,7 +132,14 @@ class LiveGame:
         return None if self.match.simulations is None else max(0, self.match.simulations - simulated)
 
     def terms(self) -> GameTerms:
-        """What stays the same throughout the game. The rows were validated when they were written."""
+        """What stays the same throughout the game, put together once."""
+        known = self.fixture.game_terms
+        if self.id not in known:
+            known[self.id] = self._terms()
+        return known[self.id]
+
+    def _terms(self) -> GameTerms:
+        """The rows were validated when they were written."""
         limits = self.rules.limits
         return GameTerms.model_construct(
             game=self.id,
@@ -164,15 +174,14 @@ class LiveGame:
         )
 
 
-_GAME: Final = select(games).where(games.c.id == bindparam("id"))
+_GAME: Final = Prepared(select(games).where(games.c.id == bindparam("id")))
 _FIRST, _SECOND = agents.alias(), agents.alias()
-_MATCH: Final = (
+_MATCH: Final = Prepared(
     select(matches, _FIRST.c.name.label("name_0"), _SECOND.c.name.label("name_1"))
     .join(_FIRST, _FIRST.c.id == matches.c.seat_0)
     .join(_SECOND, _SECOND.c.id == matches.c.seat_1)
     .where(matches.c.id == bindparam("id"))
 )
-"""Made once: to put a statement together takes longer than to carry it out."""
 
 
 def find(connection: Connection, game_id: str) -> LiveGame:
@@ -182,7 +191,7 @@ def find(connection: Connection, game_id: str) -> LiveGame:
 
 def find_row(connection: Connection, game_id: str) -> GameRow:
     """The row of the game with this id; raises `NotFound`."""
-    row = connection.execute(_GAME, {"id": game_id}).one_or_none()
+    row = _GAME.first(connection, id=game_id)
     if row is None:
         raise NotFound(f"there is no game {game_id}")
     return GameRow.of(row)
@@ -190,7 +199,7 @@ def find_row(connection: Connection, game_id: str) -> GameRow:
 
 def read(connection: Connection, row: GameRow) -> LiveGame:
     """The game whose row this is."""
-    match = connection.execute(_MATCH, {"id": row.match_id}).one()
+    match = _MATCH.first(connection, id=row.match_id)
     score = score_of(connection, match.id) if row.number else (0.0, 0.0)
     fixture = Fixture(match, (match.name_0, match.name_1), score, withheld(connection, match))
     return LiveGame(row, fixture, Game.from_dict(row.state))
@@ -240,14 +249,18 @@ def points(winners: Iterable[int | None]) -> tuple[float, float]:
 
 def strokes_since(connection: Connection, game_id: str, seat: int | None) -> Sequence[StrokeView]:
     """The seat's own last stroke and what followed; for a spectator the last stroke."""
-    rows = connection.execute(_SINCE_LAST if seat is None else _SINCE_OWN, {"game": game_id, "seat": seat})
+    rows = (
+        _SINCE_LAST.all(connection, game=game_id)
+        if seat is None
+        else _SINCE_OWN.all(connection, game=game_id, seat=seat)
+    )
     return tuple(stored_strokes.view(row) for row in rows)
 
 
-def _strokes_since(last: Select[Any]) -> Select[Any]:
+def _strokes_since(last: Select[Any]) -> Prepared:
     first = func.coalesce(last.order_by(moves.c.number.desc()).limit(1).scalar_subquery(), 0)
     since = select(*stored_strokes.SUMMED).where(moves.c.game_id == bindparam("game"), moves.c.number >= first)
-    return since.order_by(moves.c.number)
+    return Prepared(since.order_by(moves.c.number))
 
 
 _LAST: Final = select(moves.c.number).where(moves.c.game_id == bindparam("game"))

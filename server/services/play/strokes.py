@@ -9,7 +9,7 @@ import logging
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 from sqlalchemy import Connection, insert
 
@@ -39,10 +39,13 @@ from server.services.play.live_game import LiveGame
 from server.services.play.long_strokes import MOST_EVENTS, IsLong
 from server.services.runtime.context import Context, Writing
 from server.store.locks import hold_match_of
+from server.store.prepared import Prepared
 from server.store.tables import moves
 
 log = logging.getLogger("pooliad.server.strokes")
 
+
+Stored = TypeVar("Stored")
 
 Move = Callable[[Connection], Command]
 """A move as it came in: a command once its sender has been looked up, which may raise `Unauthorized`."""
@@ -102,19 +105,31 @@ def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command],
     end = games.TurnEnd(live.clock.charge_of_action(command.arrived), games.next_move(live))
     told = _Told.of(live, stroke, end, whole=not command.minimal)
     context.failpoint("shot-simulated")
-    with context.writing() as writing:
+
+    def store(writing: Writing) -> tuple[LiveGame, Answer]:
         hold_match_of(writing.connection, game_id)
-        live = budget.declare(writing.connection, live, seat, asked.simulated)
-        after, view = _stored(writing, live, stroke, end, told)
+        then = budget.declare(writing.connection, live, seat, asked.simulated)
+        after, view = _stored(writing, then, stroke, end, told)
         answer = _minimal(after, view) if command.minimal else _answer(after, told, view)
         keep(writing.connection, command, answer)
         context.failpoint("shot-kept")
+        return after, answer
+
+    after, answer = _carried_out(context, stroke, store)
     context.failpoint("shot-committed")
     context.seen.keep(after)
     _account(context, live, command, end, stroke)
     context.wakeups.notify(live.agents)
     context.failpoint("shot-woken")
     return answer
+
+
+def _carried_out(context: Context, stroke: Stroke, store: Callable[[Writing], Stored]) -> Stored:
+    """What was stored. The end of a game, which is counted, logged and gone on from, has a transaction of its own."""
+    if not stroke.game.is_over:
+        return context.carry_out(store)
+    with context.writing() as writing:
+        return store(writing)
 
 
 def _played(live: LiveGame, action: Action, may_be_long: bool) -> Stroke:
@@ -283,7 +298,7 @@ def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd
     """Write the move, the game that follows and its clocks: the game as it is then, and as the player sees it."""
     live = games.advance(writing, live, stroke.game, end, told.chain)
     writing.context.failpoint("shot-advanced")
-    writing.connection.execute(_MOVE, told.row | {"created_at": writing.now})
+    _MOVE.run(writing.connection, told.row | {"created_at": writing.now})
     writing.context.failpoint("shot-moved")
     view = live.view_since((told.seen,), stroke.seat, writing.now)  # the player's last stroke is this one
     return live, view
@@ -302,4 +317,4 @@ def _minimal(live: LiveGame, view: View) -> Answer:
     return Answer(200, body.encode(), {"etag": f'"{live.row.version}"', APPLIED: MINIMAL})
 
 
-_MOVE: Final = insert(moves)
+_MOVE: Final = Prepared(insert(moves))

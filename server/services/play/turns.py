@@ -14,6 +14,7 @@ from server.services.play.clock import columns
 from server.services.play.live_game import LiveGame
 from server.services.runtime.context import Context, Writing
 from server.store.locks import hold_match_of, is_shared, only_one
+from server.store.prepared import Prepared
 from server.store.rows import GameRow
 from server.store.tables import games, notices
 
@@ -131,42 +132,47 @@ def _seen(context: Context, agent: str, look: _Look) -> bytes | None:
 
 def _delivered(context: Context, agent: str) -> bytes | None:
     """The message, once it is stored that the agent has it: news are not told again, and the turn's clock runs."""
-    with context.writing() as writing:
+
+    def deliver(writing: Writing) -> bytes | None:
         connection, now = writing.connection, writing.now
         if (news := _new(connection, agent)) is not None:
-            connection.execute(_NOTICE_DELIVERED, {"this": news.sequence, "now": now})
+            _NOTICE_DELIVERED.run(connection, {"this": news.sequence, "now": now})
             return str(news.message).encode()
         if (turn := _waiting_turn(connection, agent, now)) is not None and is_shared(connection):
             hold_match_of(connection, turn.id)
             turn = _waiting_turn(connection, agent, now, turn.id)  # as it is now that nobody else changes it
         if turn is None:
             return None
-        message = _turn_begun(writing, context.seen.of(connection, turn), agent)
+        message = _turn_begun(writing, context.seen.of(connection, turn, is_committed=False), agent)
         context.failpoint("turn-delivered")
         return message
 
+    return context.carry_out(deliver)
 
-_NEWS: Final = (
+
+_NEWS: Final = Prepared(
     select(notices)
     .where(notices.c.agent_id == bindparam("agent"), notices.c.delivered_at.is_(None))
     .order_by(notices.c.sequence)
     .limit(1)
 )
-_NOTICE_DELIVERED: Final = (
+_NOTICE_DELIVERED: Final = Prepared(
     update(notices).where(notices.c.sequence == bindparam("this")).values(delivered_at=bindparam("now"))
 )
-_WAITING: Final = (
+_TURNS: Final = (
     select(games)
     .where(games.c.mover == bindparam("agent"), games.c.deadline > bindparam("now"))
     .order_by(games.c.delivered, games.c.available_at)
     .limit(1)
 )
-_WAITING_IN: Final = _WAITING.where(games.c.id == bindparam("game"))
-_FETCHED: Final = update(games).where(games.c.id == bindparam("this"))
+_WAITING: Final = Prepared(_TURNS)
+_WAITING_IN: Final = Prepared(_TURNS.where(games.c.id == bindparam("game")))
+_FETCHED: Final = Prepared(update(games).where(games.c.id == bindparam("this")))
 
 
 def _news(connection: Connection, agent: str) -> Row[Any] | None:
-    return connection.execute(_NEWS, {"agent": agent}).first()
+    row: Row[Any] | None = _NEWS.first(connection, agent=agent)
+    return row
 
 
 def _new(connection: Connection, agent: str) -> Row[Any] | None:
@@ -177,11 +183,10 @@ def _new(connection: Connection, agent: str) -> Row[Any] | None:
 
 def _waiting_turn(connection: Connection, agent: str, now: int, game_id: str | None = None) -> GameRow | None:
     """A turn not delivered yet goes before one that was; one whose time is out waits for the timer alone."""
-    which = {"agent": agent, "now": now}
     if game_id is None:
-        row = connection.execute(_WAITING, which).first()
+        row = _WAITING.first(connection, agent=agent, now=now)
     else:
-        row = connection.execute(_WAITING_IN, which | {"game": game_id}).first()
+        row = _WAITING_IN.first(connection, agent=agent, now=now, game=game_id)
     return None if row is None else GameRow.of(row)
 
 
@@ -189,7 +194,7 @@ def _turn_begun(writing: Writing, live: LiveGame, agent: str) -> bytes:
     """The turn as a message; the first delivery starts the clock, unless it runs already."""
     if not live.row.delivered:
         started = columns.written(live.clock.fetched(writing.now), writing.context.settings)
-        writing.connection.execute(_FETCHED, started | {"this": live.id})
+        _FETCHED.run(writing.connection, started | {"this": live.id})
         live = replace(live, row=replace(live.row, **started))
     return _message(writing.connection, live, agent, writing.now)
 
