@@ -10,7 +10,7 @@ from server.services.runtime.cache import VersionedCache
 from server.store.rows import GameRow
 
 MOST_KEPT: Final = 4096
-"""Games, about 20 kB each: more than a server plays at once, or each stroke would read its game anew."""
+"""Games, about 40 kB each: more than a server plays at once, or each stroke would read its game anew."""
 
 
 class GameCache:

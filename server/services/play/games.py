@@ -20,15 +20,22 @@ from server.services.matches import match_seeds
 from server.services.matches.secrecy import withheld
 from server.services.play import agent_messages
 from server.services.play.clock import columns, ledger
-from server.services.play.live_game import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of
+from server.services.play.live_game import (
+    ABORTED,
+    FINISHED,
+    FIRST_VERSION,
+    RUNNING,
+    LiveGame,
+    find,
+    player_names,
+    score_of,
+)
 from server.services.runtime.context import Writing
 from server.store.outages import Overtaken
 from server.store.prepared import Prepared
 from server.store.tables import games, matches
 
 log = logging.getLogger("pooliad.server.games")
-
-FIRST_VERSION = 1
 
 
 def begin(writing: Writing, match: Row[Any], number: int) -> None:

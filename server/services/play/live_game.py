@@ -9,6 +9,7 @@ from sqlalchemy import Connection, Row, Select, bindparam, func, select
 
 from physics import Table
 from protocol import BudgetView, ClockView, GameTerms, NoiseView, StrokeView, View
+from protocol.strokes import since_own_last
 from referee.game import Game
 from referee.play import GameSeeds, NoiseModel
 from referee.play.clock import GameClock
@@ -28,6 +29,9 @@ from server.store.tables import agents, games, matches, moves
 RUNNING: Final = "running"
 FINISHED: Final = "finished"
 ABORTED: Final = "aborted"
+FIRST_VERSION: Final = 1
+MOST_RECENT: Final = 32
+"""Strokes of a game that are remembered: more than a visit has, but for the longest."""
 
 
 @dataclass(frozen=True)
@@ -75,11 +79,13 @@ class LiveGame:
         row: of `games`.
         fixture: its match.
         game: the referee's state.
+        recent: its latest strokes without a gap, as many as are known here.
     """
 
     row: GameRow
     fixture: Fixture
     game: Game
+    recent: tuple[StrokeView, ...] = ()
 
     @property
     def id(self) -> str:
@@ -157,9 +163,22 @@ class LiveGame:
             commitment=self.row.commitment,
         )
 
+    def with_stroke(self, stroke: StrokeView) -> "LiveGame":
+        """The same with its latest stroke known; those that no view will show again are forgotten."""
+        strokes = (*self.recent, stroke)
+        shown = max((since_own_last(strokes, seat) for seat in (0, 1)), key=len)
+        return replace(self, recent=shown[-MOST_RECENT:])
+
     def view(self, connection: Connection, seat: int | None, now: int) -> View:
         """The game as this seat sees it (None: a spectator)."""
-        return self.view_since(strokes_since(connection, self.id, seat), seat, now)
+        strokes = since_own_last(self.recent, seat) if self._knows_strokes_since(seat) else None
+        return self.view_since(strokes_since(connection, self.id, seat) if strokes is None else strokes, seat, now)
+
+    def _knows_strokes_since(self, seat: int | None) -> bool:
+        """Whether the strokes that a seat is shown are among the recent ones."""
+        if len(self.recent) == self.row.version - FIRST_VERSION:
+            return True
+        return bool(self.recent) if seat is None else any(stroke.seat == seat for stroke in self.recent)
 
     def view_since(self, strokes: Sequence[StrokeView], seat: int | None, now: int) -> View:
         """The same, with the strokes that it is to show."""

@@ -253,19 +253,17 @@ class _Told:
         """`whole`: the answer will have all of it."""
         number, charged = games.next_move(live), end.charge.charged_ns
         chain, summary, text = Chain(live.row.head), None, ""
-        seen: StrokeView
         if stroke.result is not None and stroke.result.n_events > stored_strokes.MOST_EVENTS:
-            seen = detail = StrokeDetail.of(stroke, number, events=False)
+            detail = StrokeDetail.of(stroke, number, events=False)
             told, recorded = _events(stroke.result)
             line = chain.add(stroke_entry(stroke, number, charged, events=False), {"events": recorded})
             summary = detail.model_dump(mode="json", exclude={"events"})
             text = detail.model_dump_json().removesuffix(_NO_EVENTS) + told
         else:
             line = chain.add(stroke_entry(stroke, number, charged))
-            seen = StrokeDetail.of(stroke, number) if whole else StrokeView.of(stroke, number)
-            text = seen.model_dump_json() if whole else ""
+            text = StrokeDetail.of(stroke, number).model_dump_json() if whole else ""
         row = {"game_id": live.id, "number": number, "seat": stroke.seat, **stored_strokes.columns(line, summary)}
-        return cls(seen, text, row, chain)
+        return cls(StrokeView.of(stroke, number), text, row, chain)
 
 
 def _events(result: Result) -> tuple[str, str]:
@@ -296,7 +294,7 @@ REST: Final = 3.0
 
 def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd, told: _Told) -> tuple[LiveGame, View]:
     """Write the move, the game that follows and its clocks: the game as it is then, and as the player sees it."""
-    live = games.advance(writing, live, stroke.game, end, told.chain)
+    live = games.advance(writing, live, stroke.game, end, told.chain).with_stroke(told.seen)
     writing.context.failpoint("shot-advanced")
     _MOVE.run(writing.connection, told.row | {"created_at": writing.now})
     writing.context.failpoint("shot-moved")
