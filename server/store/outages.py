@@ -46,7 +46,7 @@ def told(outage: Callable[[], None] = nothing) -> Iterator[None]:
     """Raise `Unavailable` where the database does not answer, after a call of `outage`; why is for the log alone."""
     try:
         yield
-    except (exc.DBAPIError, exc.TimeoutError, sqlite3.Error) as error:
+    except (exc.DBAPIError, exc.TimeoutError) as error:
         if not _is_outage(error):
             raise
         outage()
@@ -59,12 +59,10 @@ def unavailable() -> Unavailable:
     return Unavailable("the database does not answer; send the same request again, with the same Idempotency-Key")
 
 
-def _is_outage(error: exc.DBAPIError | exc.TimeoutError | sqlite3.Error) -> bool:
+def _is_outage(error: exc.DBAPIError | exc.TimeoutError) -> bool:
     """PostgreSQL's operational errors are about its operation; SQLite's include mistakes in a statement."""
-    if isinstance(error, sqlite3.Error):
-        return getattr(error, "sqlite_errorcode", 0) & _PRIMARY in _PASSING
     if isinstance(error, exc.TimeoutError) or error.connection_invalidated:
         return True
     if isinstance(error.orig, sqlite3.Error):
-        return _is_outage(error.orig)
+        return getattr(error.orig, "sqlite_errorcode", 0) & _PRIMARY in _PASSING
     return isinstance(error, exc.OperationalError)

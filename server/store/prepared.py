@@ -14,6 +14,8 @@ from sqlalchemy import Connection, Executable, Select
 from sqlalchemy.engine import Dialect
 from sqlalchemy.types import TypeEngine
 
+from server.store import sqlite
+
 Parameters = Mapping[str, Any]
 Values = Sequence[Any]
 Convert = Callable[[Any], Any]
@@ -81,14 +83,12 @@ class _Sent:
         self._row = _row_of([str(column.key) for column in columns])
 
     def carried_out(self, connection: Connection, parameters: Parameters) -> sqlite3.Cursor:
-        """The driver's cursor. What fails is the driver's own error (`server.store.outages`)."""
-        driver: Any = connection.connection.dbapi_connection
+        """The driver's cursor."""
         values = [
             parameters.get(name, default) if convert is None else convert(parameters.get(name, default))
             for name, default, convert in self._parameters
         ]
-        cursor: sqlite3.Cursor = driver.execute(self._text, values)
-        return cursor
+        return sqlite.execute(connection, self._text, values)
 
     def row(self, values: Values) -> Any:
         """A row as the library would give it."""

@@ -8,6 +8,7 @@ from contextvars import ContextVar
 
 import pytest
 from sqlalchemy import bindparam, event, insert, select
+from sqlalchemy.exc import IntegrityError
 
 from server.errors import NotFound, Unavailable
 from server.store import outages
@@ -116,7 +117,7 @@ def test_a_row_that_fails_is_carried_out_by_itself_and_hurts_nobody(shared, plac
     works = [enter("one"), enter("two")]
     works.insert(place, enter("taken"))
     came = shared.carried_out(works)
-    assert isinstance(came.pop(place), sqlite3.IntegrityError)
+    assert isinstance(came.pop(place), IntegrityError)
     assert came == ["one", "two"]
     assert shared.stored() == {"taken", "one", "two"}
 

@@ -4,6 +4,7 @@ import sqlite3
 
 import pytest
 from sqlalchemy import bindparam, insert, select, update
+from sqlalchemy.exc import IntegrityError
 
 from server.errors import Unavailable
 from server.store import prepared
@@ -111,7 +112,7 @@ def test_a_fault_of_the_driver_is_no_outage_and_an_outage_is_told(database, tmp_
         for _ in range(2):
             Prepared(insert(agents)).run(connection, AGENT)
 
-    with pytest.raises(sqlite3.IntegrityError), database.writing() as connection:
+    with pytest.raises(IntegrityError), database.writing() as connection:
         twice(connection)
     assert not database.writes_fail.is_set()
     impatient = Database(database.url, wait=0.05)
