@@ -10,6 +10,7 @@ from client.cli.output import USAGE, Json, emit, fail, say
 from client.cli.players import load_player
 
 if TYPE_CHECKING:
+    from client.agents.registry import Player
     from protocol import MatchOver
     from referee import Game
 
@@ -43,7 +44,7 @@ def run(
     from client.run import run_agent, serve_agent
 
     _prepare(token)
-    player = load_player(name, seed)
+    player = _ready(name, seed)
     if forever:
         serve_agent(player, url, token)
     _report(run_agent(player, url, token), as_json)
@@ -67,9 +68,7 @@ def spar(
     from client.sparring import spar as play
 
     _prepare(token)
-    over = play(
-        load_player(name, seed), url, token, bot, games=games, noise=noise, seconds=seconds, start=_position(start)
-    )
+    over = play(_ready(name, seed), url, token, bot, games=games, noise=noise, seconds=seconds, start=_position(start))
     _report(over, as_json)
 
 
@@ -84,6 +83,18 @@ def _prepare(token: str) -> None:
         fail("--token holds characters that no token has: letters, digits and signs of ASCII only", USAGE)
     logging.basicConfig(stream=sys.stderr, format="%(asctime)s %(levelname)s %(message)s")
     report_if_asked()
+
+
+def _ready(name: str, seed: int | None) -> "Player":
+    """The player of a name, with the physics loaded before a clock runs; a command's is its own."""
+    from client.agents.registry import STDIO
+    from client.prepare import prepare
+    from physics import Table
+
+    player = load_player(name, seed)
+    if not name.startswith(STDIO):
+        prepare(Table.olympiad())
+    return player
 
 
 def _position(file: Path | None) -> "Game | None":
