@@ -191,7 +191,7 @@ def test_others_who_write_are_waited_for_and_nobody_is_forgotten(shared):
 
 def test_each_is_carried_out_in_its_own_context(shared):
     """The log names the request that a line belongs to, whoever wrote for it."""
-    request = ContextVar("request")
+    request: ContextVar[str] = ContextVar("request")
 
     def asked(name):
         request.set(name)

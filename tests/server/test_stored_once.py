@@ -39,7 +39,7 @@ def test_a_stroke_is_its_line(new_table, database):
 def test_a_turn_shows_the_strokes_that_the_database_has(new_table, database, script):
     """The server remembers a game's latest strokes, and shows what it would read."""
     table, chance = new_table(clock={"seconds": 3600.0}), random.Random(4)
-    lengths = Counter()
+    lengths: Counter[int] = Counter()
     for _ in range(24):
         mover, view = table.mover()
         with database.reading() as connection:
