@@ -32,6 +32,7 @@ BENCHMARKS = {
     "search_breaks": "the study behind the break of `search`: random breaks, halved again and again",
     "tournaments": "events of in-process agents: games per second, in one process and with one and two workers",
     "load": "shots a second over HTTP with 1, 10, 100 and 500 games at once, next to a bare endpoint",
+    "stroke_costs": "a stroke over HTTP, and a turn by long poll, beside version 0.1.0 and a bare endpoint, in one run",
     "growth": "lists, strokes and a start in a database of 10^5 finished games, beside a new one",
     "spectators": "what a stroke costs the server when 100 watch the game",
     "soak": "thousands of games through the SDK and HTTP: time-outs that nothing explains, and their upper bound",

@@ -79,7 +79,7 @@ class Side:
         began = time.perf_counter()
         self.port = self._stack.enter_context(serving("server", "--database", f"sqlite:///{self._database}"))
         self.start_wall = round(time.perf_counter() - began, 2)
-        self._process = _serving_process(self.port)
+        self._process = serving_process(self.port)
         self.start_cpu = round(self.cpu(), 2)
         asyncio.run(ready(self.port))
         return self
@@ -92,7 +92,7 @@ class Side:
         return time.clock_gettime((~self._process << 3) | 2)
 
 
-def _serving_process(port: int) -> int:
+def serving_process(port: int) -> int:
     """The process that listens at a port of this machine (`/proc/net/tcp`)."""
     lines = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()[1:]]
     inode = next(line[9] for line in lines if line[1].endswith(f":{port:04X}") and line[3] == "0A")

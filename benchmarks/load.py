@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +27,7 @@ import numpy as np
 from benchmarks.command import main
 from benchmarks.load_client import Connection, Reply
 from benchmarks.load_games import Player, begin, next_request
-from benchmarks.recording import Row, Tables
+from benchmarks.recording import ROOT, Row, Tables
 
 GAMES = (1, 10, 100, 500)
 ORGANISER = secrets.token_hex(32)
@@ -189,14 +189,15 @@ async def connections(port: int, count: int) -> AsyncIterator[list[Connection]]:
 
 
 @contextlib.contextmanager
-def serving(module: str, *options: str) -> Iterator[int]:
-    """A server as a process; its port."""
+def serving(module: str, *options: str, tree: Path = ROOT, settings: Mapping[str, str] | None = None) -> Iterator[int]:
+    """A server as a process, of the checkout that is named, with settings of its own; its port."""
     limits = dict.fromkeys(("TOKEN_RATE", "TOKEN_BURST", "ADDRESS_RATE", "ADDRESS_BURST"), "1e9")
     environment = os.environ | {"POOLIAD_ORGANISER_TOKEN": ORGANISER}
     environment |= {f"POOLIAD_{name}": value for name, value in limits.items()}
-    environment |= {"POOLIAD_LOG_LEVEL": "warning", "POOLIAD_STREAMS": "1000"}
-    command = [sys.executable, "-m", module, "--port", "0", *options]
-    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as process:
+    environment |= {"POOLIAD_LOG_LEVEL": "warning", "POOLIAD_STREAMS": "1000", "PYTHONPATH": str(tree)}
+    environment |= {f"POOLIAD_{name}": value for name, value in (settings or {}).items()}
+    command = [sys.executable, "-P", "-m", module, "--port", "0", *options]
+    with subprocess.Popen(command, env=environment, cwd=tree, stdout=subprocess.PIPE, text=True) as process:
         try:
             assert process.stdout is not None
             yield int(json.loads(process.stdout.readline())["url"].rpartition(":")[2])

@@ -13,8 +13,9 @@ from server import failpoints, openapi
 from server.errors import ServerError, handle_fault, handle_framework_error, handle_server_error
 from server.http.body_gate import BodyGate
 from server.http.drain import DrainAnswers
+from server.http.express import Express
 from server.ops.telemetry import Telemetry
-from server.routes import ROUTERS
+from server.routes import DIRECT, ROUTERS
 from server.security import keys
 from server.services.accounts.house_processes import House
 from server.services.matches.matches import abort_foreign
@@ -43,7 +44,7 @@ def create_app(settings: Settings) -> FastAPI:
 
     Once it listens, `app.state.heartbeat.listening()` lets games go on, and `app.state.house.listening(url)` the bots.
     """
-    database = Database(settings.database, settings.database_seconds)
+    database = Database(settings.database, settings.database_seconds, group_commit=settings.group_commit)
     context = Context(
         settings,
         database,
@@ -70,10 +71,12 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.house = House(context)
     app.state.heartbeat = Heartbeat(context)
     app.openapi = partial(openapi.document, app)  # type: ignore[method-assign]
+    endpoints = tuple(route for router in ROUTERS for route in router.routes)
+    app.state.endpoints = (*app.routes, *endpoints)
+    app.add_middleware(Express, routes=endpoints, direct=DIRECT)
     app.add_middleware(BodyGate, settings=settings, time=context.time)
     app.add_middleware(DrainAnswers, draining=context.wakeups.draining)
     app.add_middleware(Telemetry, metrics=context.metrics)
-    app.state.endpoints = (*app.routes, *(route for router in ROUTERS for route in router.routes))
     for router in ROUTERS:
         app.include_router(router)
     return app

@@ -51,6 +51,9 @@ class Settings:
         "sqlite:///pooliad.db", "where everything is kept: `sqlite:///path` or `postgresql://user@host/name`"
     )
     database_seconds: float = setting(5.0, "a writer waits so long for an SQLite file that another process has locked")
+    group_commit: bool = setting(
+        False, "on SQLite, whether strokes that arrive during a flush to the disk share the next one"
+    )
     registration: str = setting("open", "who may register agents: `open`, `invited`, `closed`", one_of=REGISTRATIONS)
     public_reads: bool = setting(True, "whether games, lists and records are read without a token")
     public_physics: bool = setting(True, "whether single shots are simulated without a token")

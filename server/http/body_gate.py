@@ -78,7 +78,8 @@ class BodyGate:
         if _announced_length(scope) > limit:
             raise _too_large(limit)
         try:
-            return await asyncio.wait_for(_read(receive, limit, hold), self._seconds)
+            async with asyncio.timeout(self._seconds):
+                return await _read(receive, limit, hold)
         except TimeoutError as error:
             allowed = f"{self._seconds:g} seconds"
             raise SlowBody(f"the body was not complete after {allowed}", allowed=allowed) from error

@@ -16,6 +16,7 @@ from protocol import shown
 from server.errors import BadHeader, KeyReused, NotJson, UnsupportedMediaType, invalid_field, invalid_fields
 from server.security.callers import Caller
 from server.store.locks import only_one
+from server.store.prepared import Prepared
 from server.store.tables import answers
 
 LONGEST_KEY = 200
@@ -121,8 +122,8 @@ def _require_no_nul(content: object, place: tuple[str, ...]) -> None:
             _require_no_nul(value, (*place, str(index)))
 
 
-_KEEP: Final = insert(answers)
-_STORED: Final = select(answers).where(*(column == bindparam(column.name) for column in answers.primary_key))
+_KEEP: Final = Prepared(insert(answers))
+_STORED: Final = Prepared(select(answers).where(*(column == bindparam(column.name) for column in answers.primary_key)))
 
 
 def recall(connection: Connection, command: Command) -> Answer | None:
@@ -130,9 +131,7 @@ def recall(connection: Connection, command: Command) -> Answer | None:
 
     Raises `BadHeader` without a usable Idempotency-Key and `KeyReused` when the key came with another body.
     """
-    row = connection.execute(
-        _STORED, {"caller": command.caller.id, "route": command.route, "key": usable_key(command)}
-    ).one_or_none()
+    row = _STORED.first(connection, caller=command.caller.id, route=command.route, key=usable_key(command))
     if row is None:
         return None
     if row.request_digest != command.request_digest:
@@ -154,7 +153,7 @@ def keep(connection: Connection, command: Command, answer: Answer) -> None:
         "body": answer.body,
         "created_at": command.arrived,
     }
-    connection.execute(_KEEP, row)
+    _KEEP.run(connection, row)
 
 
 def once(connection: Connection, command: Command, act: Callable[[], Answer]) -> Answer:

@@ -31,6 +31,9 @@ HEAD_TOO_LARGE = 431
 WRITE = "pooliad.write"
 """The extension of a request's scope that writes part of its answer at once, if the reader has read all before it."""
 
+GONE = "pooliad.gone"
+"""The extension that says whether the reader has hung up: to ask the framework takes a task that is cancelled."""
+
 LEAST_READ = 64 * 1024
 """Bytes."""
 
@@ -125,6 +128,7 @@ class _Bounded(H11Protocol):
         if self.scope is not None:
             extensions: Any = self.scope.setdefault("extensions", {})
             extensions.setdefault(WRITE, partial(self._write_part, self.cycle))
+            extensions.setdefault(GONE, partial(getattr, self.cycle, "disconnected"))
 
     def _write_part(self, cycle: RequestResponseCycle, part: bytes) -> bool:
         """Write part of an answer of unknown length, framed as RFC 9112, 7.1 has it; False when it has to wait.

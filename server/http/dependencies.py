@@ -1,6 +1,7 @@
 """What endpoints are given: the context, the caller, the command, the page."""
 
 from collections.abc import AsyncIterator
+from contextlib import AbstractContextManager
 from typing import Annotated
 
 from fastapi import Depends, Header, Query, Request, Response
@@ -8,12 +9,14 @@ from sqlalchemy import Connection
 
 from server.errors import Unauthorized, invalid_field
 from server.http.commands import Answer, Command
+from server.http.connections import GONE
 from server.http.describe import NUMBER, PAGE_LIMIT, PLACE, SEARCH
 from server.http.preferences import wants_minimal
 from server.security.addresses import origin
 from server.security.callers import Caller, identify
 from server.security.tokens import bearer
 from server.services.play.strokes import Move
+from server.services.play.turns import Sender
 from server.services.runtime.context import Context
 from server.store import paging
 
@@ -148,20 +151,40 @@ Simulation = Annotated[Command, Depends(_simulation)]
 """A request for one simulated shot."""
 
 
-async def _move(request: Request) -> Move:
+def sender_of(request: Request) -> Sender:
+    """Whoever asks for messages, looked up by the transaction that looks for them."""
+    return lambda connection: _identified(connection, request)
+
+
+async def is_gone(request: Request) -> bool:
+    """Whether the sender has hung up."""
+    asked = request.scope.get("extensions", {}).get(GONE)
+    return await request.is_disconnected() if asked is None else bool(asked())
+
+
+def move_of(request: Request) -> Move:
+    """A player's move: whoever it is from is looked up by the transaction that looks at the game."""
     return lambda connection: _sent(request, _identified(connection, request))
 
 
+async def _move(request: Request) -> Move:
+    return move_of(request)
+
+
 MoveDep = Annotated[Move, Depends(_move)]
-"""A player's move: whoever it is from is looked up by the transaction that looks at the game."""
+"""See `move_of`."""
+
+
+def in_hand(game_id: str, request: Request) -> AbstractContextManager[None]:
+    """Tell the timer that a complete request of this game is being worked on, for as long as the block lasts.
+
+    Entered on the loop, before any queueing; left when there is an answer, whether or not it is being read.
+    """
+    return context_of(request).in_hand.working_on(game_id, request.state.arrived)
 
 
 async def _in_hand(game_id: str, request: Request) -> AsyncIterator[None]:
-    """Tell the timer that a complete request of this game is being worked on.
-
-    Runs on the loop, before any queueing; over when there is an answer, whether or not it is being read.
-    """
-    with context_of(request).in_hand.working_on(game_id, request.state.arrived):
+    with in_hand(game_id, request):
         yield
 
 

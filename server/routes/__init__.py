@@ -1,9 +1,11 @@
 """The HTTP surface: thin endpoints that call services."""
 
-from typing import Final
+from collections.abc import Callable, Mapping
+from typing import Any, Final
 
 from fastapi import APIRouter
 
+from server.http.express import Direct
 from server.routes import (
     agents,
     best_strokes,
@@ -37,3 +39,6 @@ ROUTERS: Final[tuple[APIRouter, ...]] = (
     health.router,
     page.router,
 )
+
+DIRECT: Final[Mapping[Callable[..., Any], Direct]] = games.DIRECT | turns.DIRECT
+"""The endpoints that are called past the framework's router."""

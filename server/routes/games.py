@@ -1,9 +1,10 @@
 """Games: how they stand, the players' actions, the history and the record."""
 
+from collections.abc import Callable
 from functools import partial
-from typing import Annotated
+from typing import Annotated, Any, Final
 
-from fastapi import APIRouter, Query, Response
+from fastapi import APIRouter, Query, Request, Response
 
 from protocol import (
     ClockLedger,
@@ -30,8 +31,23 @@ from server.errors import (
     Unauthorized,
     VersionRequired,
 )
-from server.http.dependencies import ANYBODY, ContextDep, Cursor, InHand, Limit, MoveDep, Reader, Sent, flag, respond
+from server.http.dependencies import (
+    ANYBODY,
+    ContextDep,
+    Cursor,
+    InHand,
+    Limit,
+    MoveDep,
+    Reader,
+    Sent,
+    context_of,
+    flag,
+    in_hand,
+    move_of,
+    respond,
+)
 from server.http.describe import OWNED, describe
+from server.http.express import Direct
 from server.services.play import forfeits, history, strokes
 from server.services.play.clock import ledger
 from server.services.watch import pictures
@@ -70,17 +86,26 @@ def game(game_id: str, context: ContextDep, reader: Reader) -> Response:
         version=True,
         minimal=True,
     ),
-    dependencies=[InHand],
     summary="Play a stroke",
 )
-async def shoot(game_id: str, context: ContextDep, move: MoveDep) -> Response:
+async def shoot(game_id: str, request: Request) -> Response:
     """The shot as played (with noise), its events, the ruling and the next view.
 
     With `Prefer: return=minimal` the view alone. A request that is sent again gets the answer that it got,
     whatever it prefers then.
     """
-    play = partial(strokes.shoot, context, game_id, move)
-    return respond(await context.long_strokes.play(game_id, play))
+    context = context_of(request)
+    with in_hand(game_id, request):
+        play = partial(strokes.shoot, context, game_id, move_of(request))
+        return respond(await context.long_strokes.play(game_id, play))
+
+
+async def _shoot(request: Request) -> Response:
+    return await shoot(request.path_params["game_id"], request)
+
+
+DIRECT: Final[dict[Callable[..., Any], Direct]] = {shoot: _shoot}
+"""For `server.http.express`."""
 
 
 @router.post(

@@ -1,14 +1,17 @@
 """The long poll."""
 
+from collections.abc import Callable
+from functools import partial
 from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Query, Request, Response
 
 from protocol import TurnMessage
 from server.errors import Forbidden, Invalid, invalid_field
-from server.http.dependencies import Authenticated, ContextDep
+from server.http.dependencies import context_of, is_gone, sender_of
 from server.http.describe import describe
-from server.services.play.turns import wait_for_message
+from server.http.express import Direct
+from server.services.play.turns import poll
 
 WAIT: Final[dict[str, Any]] = {"type": "number", "minimum": 0, "maximum": 60, "default": 0, "examples": [30]}
 
@@ -21,18 +24,24 @@ router = APIRouter(prefix="/v1/turns", tags=["turns"])
     summary="The caller's next message",
 )
 async def next_message(
-    context: ContextDep,
-    caller: Authenticated,
     request: Request,
     wait: Annotated[
         str, Query(description="seconds to wait for a message, 0 to 60", examples=["30"], json_schema_extra=WAIT)
     ] = "0",
 ) -> Response:
     """`turn` (until it is played), `game_over` or `match_over` (once each); 204 when there is none."""
-    agent, seconds = caller.require_agent(), _seconds(wait, context.settings.longest_wait)
-    with context.limits.waiting(caller):
-        message = await wait_for_message(context, agent, seconds, request.is_disconnected)
+    context = context_of(request)
+    seconds = partial(_seconds, wait, context.settings.longest_wait)
+    message = await poll(context, sender_of(request), seconds, partial(is_gone, request))
     return Response(status_code=204) if message is None else Response(message, media_type="application/json")
+
+
+async def _next_message(request: Request) -> Response:
+    return await next_message(request, request.query_params.get("wait", "0"))
+
+
+DIRECT: Final[dict[Callable[..., Any], Direct]] = {next_message: _next_message}
+"""For `server.http.express`."""
 
 
 def _seconds(text: str, longest: float) -> float:

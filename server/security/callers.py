@@ -9,6 +9,7 @@ from sqlalchemy import Connection, bindparam, select
 
 from server.errors import Forbidden, Unauthorized
 from server.security.tokens import digest, matches
+from server.store.prepared import Prepared
 from server.store.tables import tokens
 
 ORGANISER = "organiser"
@@ -93,7 +94,7 @@ def identify(connection: Connection, token: str | None, organiser_digest: str | 
         raise Unauthorized("there is no token: must be sent in the header Authorization: Bearer TOKEN")
     if organiser_digest is not None and hmac.compare_digest(digest(token), organiser_digest):
         return Caller.organiser(token)
-    row = connection.execute(_BY_DIGEST, {"digest": digest(token)}).one_or_none()
+    row = _BY_DIGEST.first(connection, digest=digest(token))
     if row is None or row.revoked_at is not None or not matches(token, row.digest):
         raise Unauthorized("the token is not valid: unknown, rotated or revoked")
     if row.expires_at is not None and row.expires_at <= now:
@@ -101,4 +102,4 @@ def identify(connection: Connection, token: str | None, organiser_digest: str | 
     return Caller(row.agent_id or row.id, token, frozenset(Scope(scope) for scope in row.scopes.split()))
 
 
-_BY_DIGEST: Final = select(tokens).where(tokens.c.digest == bindparam("digest"))
+_BY_DIGEST: Final = Prepared(select(tokens).where(tokens.c.digest == bindparam("digest")))

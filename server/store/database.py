@@ -7,16 +7,20 @@ different matches go on at once, and whoever changes a match locks its row first
 import contextlib
 import secrets
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from typing import Final
+from typing import Final, TypeVar
 
 from sqlalchemy import Connection, Engine, delete, insert
 
 from server.errors import ServerError
 from server.store import files, outages, postgresql, sqlite
+from server.store.group_commit import GroupCommit
+from server.store.outages import Overtaken
 from server.store.process_lock import AloneMembership, Membership, SharedMembership
 from server.store.tables import answers
+
+T = TypeVar("T")
 
 ROOM: Final = 1024 * 1024
 """Bytes: more than strokes write but for the longest, ten times what a break does with its line and its answer."""
@@ -28,6 +32,7 @@ class Database:
     Args:
         url: where it is.
         wait: seconds for an SQLite file that another process has locked.
+        group_commit: whether transactions of SQLite that may share a commit do so; PostgreSQL sees to that itself.
 
     Attributes:
         is_shared: whether several server processes may work on it at once.
@@ -35,12 +40,14 @@ class Database:
         writes_fail: set by a write that the database did not take, cleared by `try_writing`.
     """
 
-    def __init__(self, url: str, wait: float = outages.WAIT_SECONDS) -> None:
+    def __init__(self, url: str, wait: float = outages.WAIT_SECONDS, *, group_commit: bool = False) -> None:
         self.url = url
         self.is_shared = postgresql.is_ours(url)
         self._engine = postgresql.engine(url) if self.is_shared else sqlite.engine(url, wait)
         self._reader = self._engine.execution_options(**postgresql.READING) if self.is_shared else self._engine
-        self._writer: AbstractContextManager[None] = contextlib.nullcontext() if self.is_shared else _WritersPlace()
+        self._writer = self._engine if self.is_shared else self._engine.execution_options(**sqlite.WRITING)
+        self._place: AbstractContextManager[None] = contextlib.nullcontext() if self.is_shared else _WritersPlace()
+        self._group = GroupCommit(self._place, self._transaction) if group_commit and not self.is_shared else None
         self.writes_fail = threading.Event()
         self.membership: Membership = SharedMembership(self._engine) if self.is_shared else AloneMembership(url)
 
@@ -51,6 +58,7 @@ class Database:
         Raises `Unavailable` when the database does not answer, as everything here does.
         """
         with outages.told(), _connected(self._reader) as connection:
+            connection.begin()
             yield connection
 
     @contextmanager
@@ -59,10 +67,25 @@ class Database:
 
         On SQLite, threads of this process queue on a lock rather than on the library's sleeping retries.
         """
-        with outages.told(self.writes_fail.set), self._writer, _connected(self._engine) as connection:
-            writing = connection.execution_options(**sqlite.WRITING)
-            with writing.begin():
-                yield writing
+        with self._place, self._transaction() as connection:
+            yield connection
+
+    def carry_out(self, work: Callable[[Connection], T]) -> T:
+        """What `work` makes of a transaction that commits when it returns, and is taken back when it raises.
+
+        With `group_commit` others' work may be in the same transaction, before it and after it: what it reads of what
+        others write may be uncommitted, and it may be called again. Raises `Unavailable` as `writing` does.
+        """
+        if self._group is not None:
+            return self._group.carry_out(work)
+        with self.writing() as connection:
+            return work(connection)
+
+    @contextmanager
+    def _transaction(self) -> Iterator[Connection]:
+        """In the writer's place."""
+        with outages.told(self.writes_fail.set), _connected(self._writer) as connection, connection.begin():
+            yield connection
 
     def has_room(self) -> bool:
         """Whether the database's disk has room for a stroke; PostgreSQL's may be another machine's: not asked."""
@@ -97,10 +120,6 @@ class Database:
         """Close every connection, then give the place back."""
         self._engine.dispose()
         self.membership.leave()
-
-
-class Overtaken(Exception):
-    """Somebody else was faster: the transaction is rolled back, to be tried again. No fault."""
 
 
 @contextmanager

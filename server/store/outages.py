@@ -33,6 +33,10 @@ _PRIMARY: Final = 0xFF
 """The bits of SQLite's code that say what kind of failure it is (https://sqlite.org/rescode.html)."""
 
 
+class Overtaken(Exception):
+    """Somebody else was faster: the transaction is rolled back, to be tried again. No fault."""
+
+
 def nothing() -> None:
     """Nobody is to be told."""
 

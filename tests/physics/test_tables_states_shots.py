@@ -237,3 +237,21 @@ def test_importing_loads_no_compiler():
     code = "import sys, physics; print([m for m in ('numba', 'scipy', 'llvmlite') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+LINEAR_ALGEBRA = """
+import sys, physics
+table = physics.Table.olympiad()
+physics.simulate(table, physics.rack(table, seed=7), physics.Shot(9.0, 270.0, 10.0, 0.0, 0.0))
+assert "numba" in sys.modules
+assert "scipy.linalg" not in sys.modules, "a third of the time that the kernels take to load"
+import numba, numpy
+print(numba.njit(lambda a: numpy.dot(a, a))(numpy.arange(4.0)), "scipy.linalg" in sys.modules)
+"""
+
+
+def test_the_kernels_load_without_linear_algebra_and_leave_it_to_others():
+    """numba imports scipy to see whether there is a BLAS; whoever uses one in the same process still has it."""
+    pytest.importorskip("scipy")
+    done = subprocess.run([sys.executable, "-c", LINEAR_ALGEBRA], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "14.0 True"

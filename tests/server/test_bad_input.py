@@ -334,8 +334,9 @@ def test_a_table_the_physics_does_not_take_is_a_problem_that_names_the_ball(new_
         (state,) = database.execute("SELECT state FROM games WHERE id = ?", (view["game"],)).fetchone()
         damaged = json.loads(state)
         damaged["state"]["3"] = [5.0, 0.5]
-        database.execute("UPDATE games SET state = ? WHERE id = ?", (json.dumps(damaged), view["game"]))
-    problem = problem_of(mover.act(view, break_shot), 422, "invalid")
+        changed = "UPDATE games SET state = ?, version = version + 1 WHERE id = ?"
+        database.execute(changed, (json.dumps(damaged), view["game"]))
+    problem = problem_of(mover.act(view | {"version": view["version"] + 1}, break_shot), 422, "invalid")
     assert (problem["field"], problem["value"]) == ("balls.3", [5.0, 0.5])
     table.organiser.post(f"/v1/matches/{table.match['id']}/abort")
 

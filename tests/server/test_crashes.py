@@ -117,9 +117,10 @@ def history(table, game, cursor=0):
 
 
 @pytest.mark.slow
-def test_killed_at_every_step_of_a_shot(own_server, table_at, script):
+@pytest.mark.parametrize("group_commit", ["false", "true"])
+def test_killed_at_every_step_of_a_shot(own_server, table_at, script, group_commit):
     """One match with a crash at each step in turn is, in the end, the match that is played without any."""
-    server = own_server(POOLIAD_FAILPOINT=f"{POINTS[0]}:3")
+    server = own_server(POOLIAD_FAILPOINT=f"{POINTS[0]}:3", POOLIAD_GROUP_COMMIT=group_commit)
     hands = Hands(table_at(server, seed="a" * 64, **TERMS), script, seed=5)
     left, deaths = [*POINTS[1:], ""], []
 
@@ -146,9 +147,10 @@ def test_killed_at_every_step_of_a_shot(own_server, table_at, script):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("group_commit", ["false", "true"])
 @pytest.mark.parametrize("kills", [10, pytest.param(200, marks=pytest.mark.long)])
-def test_killed_at_random_under_load(own_server, table_at, script, kills):
-    server = own_server()
+def test_killed_at_random_under_load(own_server, table_at, script, kills, group_commit):
+    server = own_server(POOLIAD_GROUP_COMMIT=group_commit)
     load = [Hands(table_at(server, **TERMS), script, seed) for seed in range(4)]
     stop, chance = threading.Event(), random.Random(kills)
     faults = []

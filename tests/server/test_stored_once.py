@@ -1,12 +1,15 @@
 """A stroke is stored once, as the line of its record; views and histories say of it what they always said."""
 
 import json
+import random
+from collections import Counter
+from dataclasses import replace
 
 import pytest
 from sqlalchemy import select, update
 
 from protocol import StrokeDetail
-from server.services.play import stored_strokes
+from server.services.play import live_game, stored_strokes
 from server.store.database import Database
 from server.store.tables import answers, moves
 
@@ -31,6 +34,40 @@ def test_a_stroke_is_its_line(new_table, database):
     assert [row.line for row in rows] == [""] * len(answered)
     told = [StrokeDetail.of_entry(json.loads(stored_strokes.line(row))).model_dump_json() for row in rows]
     assert [json.loads(each) for each in told] == [answer["stroke"] for answer in answered]
+
+
+def test_a_turn_shows_the_strokes_that_the_database_has(new_table, database, script):
+    """The server remembers a game's latest strokes, and shows what it would read."""
+    table, chance = new_table(clock={"seconds": 3600.0}), random.Random(4)
+    lengths: Counter[int] = Counter()
+    for _ in range(24):
+        mover, view = table.mover()
+        with database.reading() as connection:
+            stored = live_game.strokes_since(connection, view["game"], view["seat"])
+        assert view["strokes_since"] == [json.loads(stroke.model_dump_json()) for stroke in stored]
+        lengths[len(stored)] += 1
+        mover.act(view, script(view, chance))
+    assert len(lengths) > 2, "nobody stayed at the table"
+
+
+def test_strokes_that_are_not_known_are_read(new_table, database, script):
+    """As after a restart, or where another process had the game until now."""
+    table, chance = new_table(clock={"seconds": 3600.0}), random.Random(4)
+    table.play(6)
+    with database.reading() as connection:
+        cold = live_game.find(connection, table.game)
+        for seat in (0, 1, None):
+            assert cold.view(connection, seat, 0).strokes_since == live_game.strokes_since(connection, cold.id, seat)
+    for _ in range(4):
+        mover, view = table.mover()
+        mover.act(view, script(view, chance))
+        with database.reading() as connection:
+            stored = live_game.find(connection, cold.id)
+            last = live_game.strokes_since(connection, cold.id, None)
+            cold = replace(cold.with_stroke(*last), row=stored.row)
+            for seat in (0, 1, None):
+                told = cold.view(connection, seat, 0).strokes_since
+                assert told == tuple(live_game.strokes_since(connection, cold.id, seat))
 
 
 def test_rows_of_version_0_1_0_are_read_beside_new_ones(new_table, database):

@@ -50,14 +50,15 @@ def declare(connection: Connection, live: LiveGame, seat: int, shots: int) -> Li
     Never refused: the stroke has been simulated, and what it met is not to be learnt from a refusal. Where shots were
     counted since the budget was looked at, the rest of it is spent.
     """
-    this, budget = games.c.id == live.id, live.match.simulations
+    budget = live.match.simulations
+    if not shots and budget is None:
+        return live
+    this = games.c.id == live.id
     if shots:
         simulated = games.c[f"simulated_{seat}"]
         total = simulated + shots
         spent = total if budget is None else case((total > budget, budget), else_=total)
         connection.execute(update(games).where(this).values({simulated: spent}))
-    elif budget is None:
-        return live
     counters = connection.execute(select(games.c.simulated_0, games.c.simulated_1).where(this)).one()
     return replace(live, row=replace(live.row, simulated_0=counters.simulated_0, simulated_1=counters.simulated_1))
 

@@ -7,9 +7,10 @@ from sqlalchemy import Connection
 
 from server.services.play.live_game import LiveGame, find_row, read
 from server.services.runtime.cache import VersionedCache
+from server.store.rows import GameRow
 
 MOST_KEPT: Final = 4096
-"""Games, about 20 kB each: more than a server plays at once, or each stroke would read its game anew."""
+"""Games, about 40 kB each: more than a server plays at once, or each stroke would read its game anew."""
 
 
 class GameCache:
@@ -20,12 +21,16 @@ class GameCache:
 
     def find(self, connection: Connection, game_id: str) -> LiveGame:
         """The game as it is committed (never from a transaction that has written); raises `NotFound`."""
-        row = find_row(connection, game_id)
-        known = self._latest.get(game_id)
+        return self.of(connection, find_row(connection, game_id))
+
+    def of(self, connection: Connection, row: GameRow, *, is_committed: bool = True) -> LiveGame:
+        """The game whose row this is; remembered where that is known to be as it was committed."""
+        known = self._latest.get(row.id)
         if known is not None and known.row.version == row.version:
             return replace(known, row=row)
         live = read(connection, row)
-        self.keep(live)
+        if is_committed:
+            self.keep(live)
         return live
 
     def keep(self, live: LiveGame) -> None:

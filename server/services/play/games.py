@@ -6,6 +6,7 @@ Everything here runs in the transaction of whatever caused it.
 import logging
 import secrets
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any, Final
 
 from sqlalchemy import Row, bindparam, insert, select, update
@@ -19,14 +20,22 @@ from server.services.matches import match_seeds
 from server.services.matches.secrecy import withheld
 from server.services.play import agent_messages
 from server.services.play.clock import columns, ledger
-from server.services.play.live_game import ABORTED, FINISHED, RUNNING, LiveGame, find, player_names, score_of
+from server.services.play.live_game import (
+    ABORTED,
+    FINISHED,
+    FIRST_VERSION,
+    RUNNING,
+    LiveGame,
+    find,
+    player_names,
+    score_of,
+)
 from server.services.runtime.context import Writing
-from server.store.database import Overtaken
+from server.store.outages import Overtaken
+from server.store.prepared import Prepared
 from server.store.tables import games, matches
 
 log = logging.getLogger("pooliad.server.games")
-
-FIRST_VERSION = 1
 
 
 def begin(writing: Writing, match: Row[Any], number: int) -> None:
@@ -184,7 +193,7 @@ def _store(writing: Writing, live: LiveGame, game: Game, end: TurnEnd, turn: dic
     """Compare-and-set on all that was read and may change, and a row in the ledger of the clocks."""
     values: dict[str, Any] = {"state": game.to_dict(), "version": live.row.version + 1} | turn
     seen = {f"seen_{name}": getattr(live.row, name) for name in _COMPARED}
-    if writing.connection.execute(_IF_UNCHANGED, values | seen).rowcount != 1:
+    if _of_columns(frozenset(values)).run(writing.connection, values | seen) != 1:
         raise MoveConflict
     ledger.enter(writing, live, end.move, end.charge)
     return replace(live, row=replace(live.row, **values), game=game)
@@ -194,3 +203,9 @@ _COMPARED: Final = ("id", "version", *columns.COMPARED)
 """Columns by which a game is known to be as it was read: the rest changes with its version alone, but for the counters
 of simulated shots, which are added to and not written: whoever simulates bounces nobody's stroke."""
 _IF_UNCHANGED: Final = update(games).where(*(games.c[name] == bindparam(f"seen_{name}") for name in _COMPARED))
+
+
+@cache
+def _of_columns(names: frozenset[str]) -> Prepared:
+    """The statement that stores these columns: those of a game that goes on, or of one that ends."""
+    return Prepared(_IF_UNCHANGED)

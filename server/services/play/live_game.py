@@ -1,7 +1,7 @@
 """A game as the database has it: its rows, read into the referee's values and shown as messages."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Final
 
@@ -9,6 +9,7 @@ from sqlalchemy import Connection, Row, Select, bindparam, func, select
 
 from physics import Table
 from protocol import BudgetView, ClockView, GameTerms, NoiseView, StrokeView, View
+from protocol.strokes import since_own_last
 from referee.game import Game
 from referee.play import GameSeeds, NoiseModel
 from referee.play.clock import GameClock
@@ -19,13 +20,18 @@ from server.services.matches import match_seeds
 from server.services.matches.secrecy import Holder, withheld
 from server.services.play import stored_strokes
 from server.services.play.clock import columns
+from server.services.play.long_strokes import MOST_EVENTS
 from server.store import locks
+from server.store.prepared import Prepared
 from server.store.rows import GameRow
 from server.store.tables import agents, games, matches, moves
 
 RUNNING: Final = "running"
 FINISHED: Final = "finished"
 ABORTED: Final = "aborted"
+FIRST_VERSION: Final = 1
+MOST_RECENT: Final = 32
+"""Strokes of a game that are remembered: more than a visit has, but for the longest."""
 
 
 @dataclass(frozen=True)
@@ -37,17 +43,27 @@ class Fixture:
         players: the agents' names, by seat.
         score: of the match, by seat.
         withheld: until whose end its noise is kept back.
+        game_terms: what views say of them, by game, once it has been asked for.
     """
 
     match: Row[Any]
     players: tuple[str, str]
     score: tuple[float, float]
     withheld: Holder | None
+    game_terms: dict[str, GameTerms] = field(default_factory=dict, init=False, compare=False, repr=False)
 
     @cached_property
     def rules(self) -> EightBall:
         """The referee on this match's table."""
         return EightBall(Table.from_dict(self.match.table))
+
+    @cached_property
+    def ordinary_rules(self) -> EightBall:
+        """The same, with strokes that end before they are long."""
+        rules = self.rules
+        if rules.limits.events <= MOST_EVENTS:
+            return rules
+        return replace(rules, limits=replace(rules.limits, events=MOST_EVENTS))
 
     @cached_property
     def noise(self) -> NoiseModel:
@@ -63,11 +79,13 @@ class LiveGame:
         row: of `games`.
         fixture: its match.
         game: the referee's state.
+        recent: its latest strokes without a gap, as many as are known here.
     """
 
     row: GameRow
     fixture: Fixture
     game: Game
+    recent: tuple[StrokeView, ...] = ()
 
     @property
     def id(self) -> str:
@@ -120,7 +138,14 @@ class LiveGame:
         return None if self.match.simulations is None else max(0, self.match.simulations - simulated)
 
     def terms(self) -> GameTerms:
-        """What stays the same throughout the game. The rows were validated when they were written."""
+        """What stays the same throughout the game, put together once."""
+        known = self.fixture.game_terms
+        if self.id not in known:
+            known[self.id] = self._terms()
+        return known[self.id]
+
+    def _terms(self) -> GameTerms:
+        """The rows were validated when they were written."""
         limits = self.rules.limits
         return GameTerms.model_construct(
             game=self.id,
@@ -138,9 +163,22 @@ class LiveGame:
             commitment=self.row.commitment,
         )
 
+    def with_stroke(self, stroke: StrokeView) -> "LiveGame":
+        """The same with its latest stroke known; those that no view will show again are forgotten."""
+        strokes = (*self.recent, stroke)
+        shown = max((since_own_last(strokes, seat) for seat in (0, 1)), key=len)
+        return replace(self, recent=shown[-MOST_RECENT:])
+
     def view(self, connection: Connection, seat: int | None, now: int) -> View:
         """The game as this seat sees it (None: a spectator)."""
-        return self.view_since(strokes_since(connection, self.id, seat), seat, now)
+        strokes = since_own_last(self.recent, seat) if self._knows_strokes_since(seat) else None
+        return self.view_since(strokes_since(connection, self.id, seat) if strokes is None else strokes, seat, now)
+
+    def _knows_strokes_since(self, seat: int | None) -> bool:
+        """Whether the strokes that a seat is shown are among the recent ones."""
+        if len(self.recent) == self.row.version - FIRST_VERSION:
+            return True
+        return bool(self.recent) if seat is None else any(stroke.seat == seat for stroke in self.recent)
 
     def view_since(self, strokes: Sequence[StrokeView], seat: int | None, now: int) -> View:
         """The same, with the strokes that it is to show."""
@@ -155,15 +193,14 @@ class LiveGame:
         )
 
 
-_GAME: Final = select(games).where(games.c.id == bindparam("id"))
+_GAME: Final = Prepared(select(games).where(games.c.id == bindparam("id")))
 _FIRST, _SECOND = agents.alias(), agents.alias()
-_MATCH: Final = (
+_MATCH: Final = Prepared(
     select(matches, _FIRST.c.name.label("name_0"), _SECOND.c.name.label("name_1"))
     .join(_FIRST, _FIRST.c.id == matches.c.seat_0)
     .join(_SECOND, _SECOND.c.id == matches.c.seat_1)
     .where(matches.c.id == bindparam("id"))
 )
-"""Made once: to put a statement together takes longer than to carry it out."""
 
 
 def find(connection: Connection, game_id: str) -> LiveGame:
@@ -173,7 +210,7 @@ def find(connection: Connection, game_id: str) -> LiveGame:
 
 def find_row(connection: Connection, game_id: str) -> GameRow:
     """The row of the game with this id; raises `NotFound`."""
-    row = connection.execute(_GAME, {"id": game_id}).one_or_none()
+    row = _GAME.first(connection, id=game_id)
     if row is None:
         raise NotFound(f"there is no game {game_id}")
     return GameRow.of(row)
@@ -181,7 +218,7 @@ def find_row(connection: Connection, game_id: str) -> GameRow:
 
 def read(connection: Connection, row: GameRow) -> LiveGame:
     """The game whose row this is."""
-    match = connection.execute(_MATCH, {"id": row.match_id}).one()
+    match = _MATCH.first(connection, id=row.match_id)
     score = score_of(connection, match.id) if row.number else (0.0, 0.0)
     fixture = Fixture(match, (match.name_0, match.name_1), score, withheld(connection, match))
     return LiveGame(row, fixture, Game.from_dict(row.state))
@@ -231,14 +268,18 @@ def points(winners: Iterable[int | None]) -> tuple[float, float]:
 
 def strokes_since(connection: Connection, game_id: str, seat: int | None) -> Sequence[StrokeView]:
     """The seat's own last stroke and what followed; for a spectator the last stroke."""
-    rows = connection.execute(_SINCE_LAST if seat is None else _SINCE_OWN, {"game": game_id, "seat": seat})
+    rows = (
+        _SINCE_LAST.all(connection, game=game_id)
+        if seat is None
+        else _SINCE_OWN.all(connection, game=game_id, seat=seat)
+    )
     return tuple(stored_strokes.view(row) for row in rows)
 
 
-def _strokes_since(last: Select[Any]) -> Select[Any]:
+def _strokes_since(last: Select[Any]) -> Prepared:
     first = func.coalesce(last.order_by(moves.c.number.desc()).limit(1).scalar_subquery(), 0)
     since = select(*stored_strokes.SUMMED).where(moves.c.game_id == bindparam("game"), moves.c.number >= first)
-    return since.order_by(moves.c.number)
+    return Prepared(since.order_by(moves.c.number))
 
 
 _LAST: Final = select(moves.c.number).where(moves.c.game_id == bindparam("game"))

@@ -8,12 +8,12 @@ import contextlib
 import logging
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from typing import Any, Final
+from dataclasses import dataclass
+from typing import Any, Final, TypeVar
 
 from sqlalchemy import Connection, insert
 
-from physics import PhysicsError, Status
+from physics import PhysicsError, Result, Status
 from protocol import (
     DecisionRequest,
     EventView,
@@ -22,6 +22,7 @@ from protocol import (
     ShotRequest,
     StrokeAnswer,
     StrokeDetail,
+    StrokeView,
     View,
     shown,
 )
@@ -38,10 +39,13 @@ from server.services.play.live_game import LiveGame
 from server.services.play.long_strokes import MOST_EVENTS, IsLong
 from server.services.runtime.context import Context, Writing
 from server.store.locks import hold_match_of
+from server.store.prepared import Prepared
 from server.store.tables import moves
 
 log = logging.getLogger("pooliad.server.strokes")
 
+
+Stored = TypeVar("Stored")
 
 Move = Callable[[Connection], Command]
 """A move as it came in: a command once its sender has been looked up, which may raise `Unauthorized`."""
@@ -99,15 +103,19 @@ def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command],
         budget.require_left(live, seat, asked.simulated)  # before any noise is drawn
         stroke = _played(live, asked.action, may_be_long)
     end = games.TurnEnd(live.clock.charge_of_action(command.arrived), games.next_move(live))
-    told = _Told.of(live, stroke, end)
+    told = _Told.of(live, stroke, end, whole=not command.minimal)
     context.failpoint("shot-simulated")
-    with context.writing() as writing:
+
+    def store(writing: Writing) -> tuple[LiveGame, Answer]:
         hold_match_of(writing.connection, game_id)
-        live = budget.declare(writing.connection, live, seat, asked.simulated)
-        after, view = _stored(writing, live, stroke, end, told)
+        then = budget.declare(writing.connection, live, seat, asked.simulated)
+        after, view = _stored(writing, then, stroke, end, told)
         answer = _minimal(after, view) if command.minimal else _answer(after, told, view)
         keep(writing.connection, command, answer)
         context.failpoint("shot-kept")
+        return after, answer
+
+    after, answer = _carried_out(context, stroke, store)
     context.failpoint("shot-committed")
     context.seen.keep(after)
     _account(context, live, command, end, stroke)
@@ -116,13 +124,20 @@ def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command],
     return answer
 
 
+def _carried_out(context: Context, stroke: Stroke, store: Callable[[Writing], Stored]) -> Stored:
+    """What was stored. The end of a game, which is counted, logged and gone on from, has a transaction of its own."""
+    if not stroke.game.is_over:
+        return context.carry_out(store)
+    with context.writing() as writing:
+        return store(writing)
+
+
 def _played(live: LiveGame, action: Action, may_be_long: bool) -> Stroke:
     """The stroke, as the rules' limits have it; raises `IsLong`, having gone no further than an ordinary one would."""
-    rules = live.rules
-    if may_be_long or rules.limits.events <= MOST_EVENTS:
-        return play_stroke(rules, live.game, action, live.seeds, live.fixture.noise)
-    ordinary = replace(rules, limits=replace(rules.limits, events=MOST_EVENTS))
-    stroke = play_stroke(ordinary, live.game, action, live.seeds, live.fixture.noise)
+    fixture = live.fixture
+    if may_be_long or fixture.ordinary_rules is fixture.rules:
+        return play_stroke(fixture.rules, live.game, action, live.seeds, fixture.noise)
+    stroke = play_stroke(fixture.ordinary_rules, live.game, action, live.seeds, fixture.noise)
     if stroke.result is not None and stroke.result.status is Status.EVENT_LIMIT:
         raise IsLong
     return stroke
@@ -224,49 +239,49 @@ class _Told:
     """A stroke in words: all of it that does not depend on when it is stored, put together while others may write.
 
     Attributes:
-        detail: as players are told, without the events; text: the same as JSON, with them. row: of `moves`.
+        seen: as views show it. text: a `StrokeDetail` in JSON; empty where nobody will read it. row: of `moves`.
         chain: of the record, the stroke's line the last.
     """
 
-    detail: StrokeDetail
+    seen: StrokeView
     text: str
     row: dict[str, Any]
     chain: Chain
 
     @classmethod
-    def of(cls, live: LiveGame, stroke: Stroke, end: games.TurnEnd) -> "_Told":
-        number = games.next_move(live)
-        detail, chain = StrokeDetail.of(stroke, number, events=False), Chain(live.row.head)
-        told, recorded = _events(stroke)
-        line = chain.add(stroke_entry(stroke, number, end.charge.charged_ns, events=False), recorded)
-        summary = detail.model_dump(mode="json", exclude={"events"}) if _is_summed(stroke) else None
+    def of(cls, live: LiveGame, stroke: Stroke, end: games.TurnEnd, *, whole: bool) -> "_Told":
+        """`whole`: the answer will have all of it."""
+        number, charged = games.next_move(live), end.charge.charged_ns
+        chain, summary, text = Chain(live.row.head), None, ""
+        if stroke.result is not None and stroke.result.n_events > stored_strokes.MOST_EVENTS:
+            detail = StrokeDetail.of(stroke, number, events=False)
+            told, recorded = _events(stroke.result)
+            line = chain.add(stroke_entry(stroke, number, charged, events=False), {"events": recorded})
+            summary = detail.model_dump(mode="json", exclude={"events"})
+            text = detail.model_dump_json().removesuffix(_NO_EVENTS) + told
+        else:
+            line = chain.add(stroke_entry(stroke, number, charged))
+            text = StrokeDetail.of(stroke, number).model_dump_json() if whole else ""
         row = {"game_id": live.id, "number": number, "seat": stroke.seat, **stored_strokes.columns(line, summary)}
-        return cls(detail, detail.model_dump_json().removesuffix(_NO_EVENTS) + told, row, chain)
+        return cls(StrokeView.of(stroke, number), text, row, chain)
 
 
-def _is_summed(stroke: Stroke) -> bool:
-    """Whether what players are told is stored beside the record's line."""
-    return stroke.result is not None and stroke.result.n_events > stored_strokes.MOST_EVENTS
-
-
-def _events(stroke: Stroke) -> tuple[str, dict[str, str]]:
-    """A stroke's events in words: the end of a `StrokeDetail`'s JSON, and the member of the record's line.
+def _events(result: Result) -> tuple[str, str]:
+    """Many events in words: the end of a `StrokeDetail`'s JSON, and the member of the record's line.
 
     One by one, and those of a long stroke with pauses: in between, other threads have the interpreter.
     """
-    if stroke.result is None:
-        return _NO_EVENTS, {}
     told, recorded = [], []
-    rests = stroke.result.n_events > MOST_EVENTS
+    rests = result.n_events > MOST_EVENTS
     began = time.thread_time()
-    for number, event in enumerate(stroke.result.events):
+    for number, event in enumerate(result.events):
         values = event.to_dict()
         told.append(EventView.model_validate(values).model_dump_json())
         recorded.append(canonical(values))
         if rests and number % EVENTS_AT_ONCE == 0:
             time.sleep(REST * (time.thread_time() - began))
             began = time.thread_time()
-    return f'"events":[{",".join(told)}]}}', {"events": f"[{','.join(recorded)}]"}
+    return f'"events":[{",".join(told)}]}}', f"[{','.join(recorded)}]"
 
 
 _NO_EVENTS: Final = '"events":[]}'
@@ -279,11 +294,11 @@ REST: Final = 3.0
 
 def _stored(writing: Writing, live: LiveGame, stroke: Stroke, end: games.TurnEnd, told: _Told) -> tuple[LiveGame, View]:
     """Write the move, the game that follows and its clocks: the game as it is then, and as the player sees it."""
-    live = games.advance(writing, live, stroke.game, end, told.chain)
+    live = games.advance(writing, live, stroke.game, end, told.chain).with_stroke(told.seen)
     writing.context.failpoint("shot-advanced")
-    writing.connection.execute(_MOVE, told.row | {"created_at": writing.now})
+    _MOVE.run(writing.connection, told.row | {"created_at": writing.now})
     writing.context.failpoint("shot-moved")
-    view = live.view_since((told.detail,), stroke.seat, writing.now)  # the player's last stroke is this one
+    view = live.view_since((told.seen,), stroke.seat, writing.now)  # the player's last stroke is this one
     return live, view
 
 
@@ -300,4 +315,4 @@ def _minimal(live: LiveGame, view: View) -> Answer:
     return Answer(200, body.encode(), {"etag": f'"{live.row.version}"', APPLIED: MINIMAL})
 
 
-_MOVE: Final = insert(moves)
+_MOVE: Final = Prepared(insert(moves))

@@ -2,26 +2,73 @@
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Final
 
-from sqlalchemy import Connection, Row, select, update
+from sqlalchemy import Connection, Row, bindparam, select, update
 from starlette.concurrency import run_in_threadpool
 
 from protocol import Turn
+from server.security.callers import Caller
 from server.services.play.clock import columns
-from server.services.play.live_game import find
+from server.services.play.live_game import LiveGame
 from server.services.runtime.context import Context, Writing
-from server.store.locks import hold_match_of, only_one
+from server.store.locks import hold_match_of, is_shared, only_one
+from server.store.prepared import Prepared
+from server.store.rows import GameRow
 from server.store.tables import games, notices
 
+Sender = Callable[[Connection], Caller]
+"""Looks up who sent a request; may raise `Unauthorized`."""
+IsGone = Callable[[], Awaitable[bool]]
+"""Whether whoever asked has hung up."""
 
-async def wait_for_message(
-    context: Context, agent: str, seconds: float, is_gone: Callable[[], Awaitable[bool]]
-) -> bytes | None:
-    """The agent's next message as JSON, or None when there was none for `seconds` or the server is stopping.
 
-    Nothing is delivered to a caller who is gone: it would start a clock that nobody sees.
+async def poll(context: Context, sender: Sender, wait: Callable[[], float], is_gone: IsGone) -> bytes | None:
+    """The sender's next message as JSON, or None when there was none for `wait` or the server is stopping.
+
+    Who asks is looked up together with the first look for a message: most polls end there. Nothing is delivered to a
+    caller who is gone: it would start a clock that nobody sees.
+
+    Args:
+        context: the server's parts.
+        sender: who asks.
+        wait: seconds, asked for when it is known that the sender plays; may raise `Invalid`.
+        is_gone: whether the sender has hung up.
+    """
+    if await is_gone():
+        return None
+    first = await run_in_threadpool(_first_look, context, sender, wait)
+    context.presence.seen(first.agent, context.time.now())
+    if first.message is not None:
+        context.failpoint("turn-committed")
+        return first.message
+    with context.limits.waiting(first.caller):
+        return await _wait_for_message(context, first.agent, first.seconds, is_gone) if first.seconds else None
+
+
+@dataclass(frozen=True, slots=True)
+class _First:
+    """Who polls, for how many seconds, and the message that was there."""
+
+    caller: Caller
+    agent: str
+    seconds: float
+    message: bytes | None
+
+
+def _first_look(context: Context, sender: Sender, wait: Callable[[], float]) -> _First:
+    with context.database.reading() as connection:
+        caller = sender(connection)
+        context.limits.count(caller)
+        agent, seconds = caller.require_agent(), wait()
+        look = _look(context, connection, agent)
+    message = None if context.wakeups.draining.is_set() else _seen(context, agent, look)
+    return _First(caller, agent, seconds, message)
+
+
+async def _wait_for_message(context: Context, agent: str, seconds: float, is_gone: IsGone) -> bytes | None:
+    """The message that comes within `seconds`.
 
     A wake-up is only a hint: the database is asked after each, and every few seconds without one, for another
     process may have written what is waited for.
@@ -48,7 +95,8 @@ async def wait_for_message(
 
 async def _wait(hint: asyncio.Event, seconds: float) -> None:
     try:
-        await asyncio.wait_for(hint.wait(), seconds)
+        async with asyncio.timeout(seconds):
+            await hint.wait()
     except TimeoutError:
         return
 
@@ -56,26 +104,75 @@ async def _wait(hint: asyncio.Event, seconds: float) -> None:
 def next_message(context: Context, agent: str) -> bytes | None:
     """News first, each once; else the turn that waits, again and again until it is played."""
     with context.database.reading() as connection:
-        if _news(connection, agent) is None and _waiting_turn(connection, agent, context.time.now()) is None:
-            return None
-    with context.writing() as writing:
+        look = _look(context, connection, agent)
+    return _seen(context, agent, look)
+
+
+@dataclass(frozen=True, slots=True)
+class _Look:
+    """What there is for an agent: a message that may be given at once, or one whose delivery is to be stored first."""
+
+    message: bytes | None = None
+    is_new: bool = False
+
+
+def _look(context: Context, connection: Connection, agent: str) -> _Look:
+    if _news(connection, agent) is not None:
+        return _Look(is_new=True)
+    if (turn := _waiting_turn(connection, agent, now := context.time.now())) is None:
+        return _Look()
+    if not turn.delivered:
+        return _Look(is_new=True)
+    return _Look(_message(connection, context.seen.of(connection, turn), agent, now))
+
+
+def _seen(context: Context, agent: str, look: _Look) -> bytes | None:
+    return _delivered(context, agent) if look.is_new else look.message
+
+
+def _delivered(context: Context, agent: str) -> bytes | None:
+    """The message, once it is stored that the agent has it: news are not told again, and the turn's clock runs."""
+
+    def deliver(writing: Writing) -> bytes | None:
         connection, now = writing.connection, writing.now
         if (news := _new(connection, agent)) is not None:
-            this = notices.c.sequence == news.sequence
-            connection.execute(update(notices).where(this).values(delivered_at=now))
+            _NOTICE_DELIVERED.run(connection, {"this": news.sequence, "now": now})
             return str(news.message).encode()
-        if (turn := _waiting_turn(connection, agent, now)) is None:
+        if (turn := _waiting_turn(connection, agent, now)) is not None and is_shared(connection):
+            hold_match_of(connection, turn.id)
+            turn = _waiting_turn(connection, agent, now, turn.id)  # as it is now that nobody else changes it
+        if turn is None:
             return None
-        hold_match_of(connection, turn.id)
-        turn = _waiting_turn(connection, agent, now, turn.id)  # as it is now that nobody else changes it
-        message = None if turn is None else _delivered(writing, turn, agent)
+        message = _turn_begun(writing, context.seen.of(connection, turn, is_committed=False), agent)
         context.failpoint("turn-delivered")
         return message
 
+    return context.carry_out(deliver)
+
+
+_NEWS: Final = Prepared(
+    select(notices)
+    .where(notices.c.agent_id == bindparam("agent"), notices.c.delivered_at.is_(None))
+    .order_by(notices.c.sequence)
+    .limit(1)
+)
+_NOTICE_DELIVERED: Final = Prepared(
+    update(notices).where(notices.c.sequence == bindparam("this")).values(delivered_at=bindparam("now"))
+)
+_TURNS: Final = (
+    select(games)
+    .where(games.c.mover == bindparam("agent"), games.c.deadline > bindparam("now"))
+    .order_by(games.c.delivered, games.c.available_at)
+    .limit(1)
+)
+_WAITING: Final = Prepared(_TURNS)
+_WAITING_IN: Final = Prepared(_TURNS.where(games.c.id == bindparam("game")))
+_FETCHED: Final = Prepared(update(games).where(games.c.id == bindparam("this")))
+
 
 def _news(connection: Connection, agent: str) -> Row[Any] | None:
-    waiting = (notices.c.agent_id == agent) & (notices.c.delivered_at.is_(None))
-    return connection.execute(select(notices).where(waiting).order_by(notices.c.sequence).limit(1)).first()
+    row: Row[Any] | None = _NEWS.first(connection, agent=agent)
+    return row
 
 
 def _new(connection: Connection, agent: str) -> Row[Any] | None:
@@ -84,20 +181,24 @@ def _new(connection: Connection, agent: str) -> Row[Any] | None:
     return _news(connection, agent)
 
 
-def _waiting_turn(connection: Connection, agent: str, now: int, game_id: str | None = None) -> Row[Any] | None:
+def _waiting_turn(connection: Connection, agent: str, now: int, game_id: str | None = None) -> GameRow | None:
     """A turn not delivered yet goes before one that was; one whose time is out waits for the timer alone."""
-    turns = select(games).where(games.c.mover == agent, games.c.deadline > now)
-    if game_id is not None:
-        turns = turns.where(games.c.id == game_id)
-    return connection.execute(turns.order_by(games.c.delivered, games.c.available_at).limit(1)).first()
+    if game_id is None:
+        row = _WAITING.first(connection, agent=agent, now=now)
+    else:
+        row = _WAITING_IN.first(connection, agent=agent, now=now, game=game_id)
+    return None if row is None else GameRow.of(row)
 
 
-def _delivered(writing: Writing, turn: Row[Any], agent: str) -> bytes:
+def _turn_begun(writing: Writing, live: LiveGame, agent: str) -> bytes:
     """The turn as a message; the first delivery starts the clock, unless it runs already."""
-    live = find(writing.connection, turn.id)
-    if not turn.delivered:
+    if not live.row.delivered:
         started = columns.written(live.clock.fetched(writing.now), writing.context.settings)
-        writing.connection.execute(update(games).where(games.c.id == turn.id).values(started))
+        _FETCHED.run(writing.connection, started | {"this": live.id})
         live = replace(live, row=replace(live.row, **started))
-    view = live.view(writing.connection, live.agents.index(agent), writing.now)
-    return Turn(game=turn.id, view=view).model_dump_json().encode()
+    return _message(writing.connection, live, agent, writing.now)
+
+
+def _message(connection: Connection, live: LiveGame, agent: str, now: int) -> bytes:
+    view = live.view(connection, live.agents.index(agent), now)
+    return Turn.model_construct(game=live.id, view=view).model_dump_json().encode()

@@ -89,6 +89,24 @@ class Context:
         with self.database.writing() as connection:
             writing = Writing(connection, self, self.time.now())
             yield writing
+        self._told(writing)
+
+    def carry_out(self, work: Callable[["Writing"], T]) -> T:
+        """The same for work that may share its transaction with others' (`Database.carry_out`)."""
+        writing: Writing | None = None
+
+        def carried_out(connection: Connection) -> T:
+            nonlocal writing
+            writing = Writing(connection, self, self.time.now())
+            return work(writing)
+
+        result = self.database.carry_out(carried_out)
+        assert writing is not None
+        self._told(writing)
+        return result
+
+    def _told(self, writing: "Writing") -> None:
+        """What a transaction made known is, now that it is committed."""
         self.courses.keep(writing.courses)
         if writing.woken:
             self.wakeups.notify(writing.woken)

@@ -17,15 +17,19 @@ class Presence:
         """The end of each agent's last poll, the latest at the end."""
 
     def enter(self, agent: str) -> None:
-        """A poll of this agent begins."""
+        """A poll of this agent begins to wait."""
         self._polls[agent] += 1
 
-    def leave(self, agent: str, now: int) -> None:
-        """A poll of this agent ends."""
+    def seen(self, agent: str, now: int) -> None:
+        """This agent has asked for its next message."""
         self._last.pop(agent, None)
         self._last[agent] = now
         while now - self._last[longest_ago := next(iter(self._last))] >= LATELY:
             del self._last[longest_ago]
+
+    def leave(self, agent: str, now: int) -> None:
+        """A poll of this agent ends."""
+        self.seen(agent, now)
         self._polls[agent] -= 1
         if self._polls[agent] <= 0:
             del self._polls[agent]

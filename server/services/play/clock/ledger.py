@@ -10,6 +10,7 @@ from referee.play.clock import SECOND_NS, Charge
 from server.services.play.live_game import LiveGame, find
 from server.services.runtime.context import Context, Writing
 from server.services.runtime.time import date_time
+from server.store.prepared import Prepared
 from server.store.tables import charges
 
 
@@ -40,10 +41,10 @@ def enter(writing: Writing, live: LiveGame, move: int | None, charge: Charge) ->
     """Write down what a turn of a game cost; `move` is the number of the move that ended it, None from outside."""
     row = {"game_id": live.id, "seat": live.game.turn, "move": move, "created_at": writing.now}
     parts = {"measured": charge.measured_ns, "lag": charge.lag_ns, "grace": charge.grace_ns}
-    writing.connection.execute(_ENTER, row | parts)
+    _ENTER.run(writing.connection, row | parts)
 
 
-_ENTER: Final = insert(charges)
+_ENTER: Final = Prepared(insert(charges))
 
 
 def _seat(live: LiveGame, seat: int) -> SeatLedger:
