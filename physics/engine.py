@@ -117,10 +117,10 @@ def _spare_linear_algebra() -> None:
 
     numba imports it to know whether there is a BLAS. What compiles linear algebra later imports it then.
     """
-    if "numba.np.arraymath" in sys.modules:
-        return
     from numba.np import linalg
 
+    if "numba.np.arraymath" in sys.modules or not hasattr(linalg, "ensure_blas"):
+        return
     imports = linalg.ensure_blas
     linalg.ensure_blas = _find_blas
     try:
