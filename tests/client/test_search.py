@@ -13,6 +13,7 @@ from client.agents.registry import titles
 from client.agents.search import SearchAgent
 from client.agents.search.breaks import best_break
 from client.agents.search.budget import Budget, Pace, allowance
+from client.agents.search.engine import geometry
 from client.agents.search.options import Options
 from client.agents.search.race import race
 from client.agents.search.refine import longest_run
@@ -269,15 +270,16 @@ def test_options_reach_the_agent():
 
 
 def test_the_race_is_a_chance_and_fewer_balls_are_better():
-    values = race(1.0)
-    grid = np.arange(1.0, 9.0)
-    seen = np.ones(8, bool)
-    worth = np.array([values.shooter(grid, np.full(8, other), np.full(8, 0.8), seen) for other in grid])
+    grid, values, shooter = np.arange(1.0, 9.0), race(1.0).values, geometry().shooter
+
+    def worths(chance):
+        return np.array([[shooter(values, needs, other, chance, True) for needs in grid] for other in grid])
+
+    worth = worths(0.8)
     assert ((worth >= 0.0) & (worth <= 1.0)).all()
     assert (np.diff(worth, axis=1) < 0.0).all()  # more to make
     assert (np.diff(worth, axis=0) > 0.0).all()  # the opponent has more to make
-    better = values.shooter(grid, grid, np.full(8, 0.95), seen)
-    assert (better >= values.shooter(grid, grid, np.full(8, 0.8), seen)).all()
+    assert (worths(0.95) >= worth).all()
 
 
 def test_pots_agree_with_plain_geometry():

@@ -17,6 +17,10 @@ CHANCE, SEEN, LAYOUT, PLACED = range(4)
 straight; how hard its layout is, minus the sum of the logarithms of its balls' chances; chance with ball in hand."""
 
 
+MADE, MISSED, SAFE, HIDDEN = range(4)
+"""Tables of a race: the shooter has just made a ball and needs so many more; misses; plays safe; plays safe without
+seeing a ball."""
+
 WIDTH, LENGTH, RADIUS, NOSE, CUE_LENGTH, MOUTHS = range(6)
 """Places in the row of a table (`engine.table_row`), m; from MOUTHS on, PER_POCKET numbers a pocket:"""
 MOUTH_X, MOUTH_Y, INWARD_X, INWARD_Y, HALF_MOUTH, HOLE_X, HOLE_Y, ENTRANCE, PER_POCKET = range(9)

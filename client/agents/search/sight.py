@@ -1,12 +1,14 @@
 """What the balls of many tables offer: straight pots and their chances, the elevation a stroke needs."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from client.agents.search import engine
-from client.agents.search.shots import PHI, THETA, Floats, Integers, Shots, Tables
+from client.agents.search.race import Race
+from client.agents.search.shots import PHI, THETA, Floats, Groups, Integers, Shots, Tables
 from client.geometry.strokes import azimuths
 from physics import Table
 from referee.play.noise import SIGMA_B, SIGMA_PHI, SIGMA_THETA
@@ -52,6 +54,20 @@ class Sight:
         """(n, 2, 4): what each table offers to either group; the columns are CHANCE and its fellows."""
         found = np.empty((len(positions), 2, 4))
         self._kernels.survey(self._row, np.ascontiguousarray(positions), self.sigma, hand, kitchen, found)
+        return found
+
+    def worths(
+        self, positions: Floats, group: Groups, hand: NDArray[np.bool_], kitchen: float, race: Race, pots: bool = True
+    ) -> Floats:
+        """(n,): what each table is worth to its shooter in a race; without `pots`, when none is made.
+
+        Args:
+            group: of the shooter. hand, kitchen: whether the cue ball is in hand, and the least y it may have then.
+        """
+        found = np.empty(len(positions))
+        shooters = (np.ascontiguousarray(group, np.int8), hand)
+        terms = (self.sigma, kitchen, -math.log(race.habits.after_pot), pots)
+        self._kernels.worths(self._row, np.ascontiguousarray(positions), shooters, terms, race.values, found)
         return found
 
     def pots(self, tables: Tables, most: int, targets: NDArray[np.bool_] | None = None) -> Pots:

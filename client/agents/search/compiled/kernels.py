@@ -25,8 +25,8 @@ PLACED_REACH = 0.25
 BLOCKED = 0.8
 """Chance that a ball no pocket is open for will be made when its turn comes: others move by then, or it is banked."""
 
-HALVINGS = 14
-"""Of the angle in which the edge of an entrance is looked for: some 1e-5 rad."""
+STEPS, CLOSE = 20, 1e-6
+"""The edge of an entrance is looked for in so many steps at most, and to so many metres; four to six do."""
 NARROWEST, WIDEST = 5e-5, 1.0
 """rad to either side: an entrance that is narrower is closed; a ball that hangs in the jaws may go anywhere."""
 
@@ -59,11 +59,30 @@ class Fan(NamedTuple):
 
 
 class Lane(NamedTuple):
-    """The way of an object ball into a pocket: unit (ux, uy), and by how much it may turn."""
+    """The way of an object ball into a pocket: unit (ux, uy), by how much it may turn, and how far it is, m."""
 
     ux: float
     uy: float
     fan: Fan
+    run: float
+
+
+class Memory(NamedTuple):
+    """What pockets open to balls where they lay last: most balls lie still from one row to the next.
+
+    ``place`` (16, 2) m; ``lanes`` (16, 6, 5): ux, uy, low, high, run.
+    """
+
+    place: Any
+    lanes: Any
+
+
+class Task(NamedTuple):
+    """What to find about a group: whether its player shoots next, with the cue ball in hand, from which y on."""
+
+    shoots: bool
+    hand: bool
+    kitchen: float
 
 
 class LevelCue(NamedTuple):
@@ -135,18 +154,25 @@ def edge_of(table, entrance, edges, bearing, far):
     first, step, count = table[entrance + at.FIRST], table[entrance + at.STEP], int(table[entrance + at.COUNT])
     turn = math.asin(min(1.0, table[entrance + at.REACH] / far))
     left, right = bearing - turn, bearing + turn
-    for _ in range(HALVINGS):
-        middle = 0.5 * (left + right)
-        if far * math.sin(middle - bearing) < offset_of(table, edges, first, step, count, middle):
-            left = middle
+    before = far * math.sin(left - bearing) - offset_of(table, edges, first, step, count, left)
+    after = far * math.sin(right - bearing) - offset_of(table, edges, first, step, count, right)
+    for _ in range(STEPS):  # regula falsi; an end that stays counts half (the Illinois rule)
+        if before >= 0.0 or after <= 0.0 or right - left < NARROWEST:
+            break
+        middle = (left * after - right * before) / (after - before)
+        aside = far * math.sin(middle - bearing) - offset_of(table, edges, first, step, count, middle)
+        if abs(aside) < CLOSE:
+            return middle
+        if aside < 0.0:
+            left, before, after = middle, aside, 0.5 * after
         else:
-            right = middle
+            right, after, before = middle, aside, 0.5 * before
     return 0.5 * (left + right)
 
 
 @inner
 def between_jaws(view, ball, place):
-    """`to_pocket` on a table with jaws: the middle of the directions in which the ball falls, and half of them."""
+    """`opened` on a table with jaws: the middle of the directions in which the ball falls, and half of them."""
     table = view.table
     entrance = int(table[place + at.ENTRANCE])
     x, y = view.row[ball, 0], view.row[ball, 1]
@@ -161,14 +187,14 @@ def between_jaws(view, ball, place):
     c, s = math.cos(turn), math.sin(turn)
     ux, uy = c * in_x - s * in_y, s * in_x + c * in_y
     if half <= NARROWEST:
-        return Lane(ux, uy, Fan(0.0, 0.0))
+        return Lane(ux, uy, Fan(0.0, 0.0), 0.0)
     run = max((table[place + at.MOUTH_X] - x) * ux + (table[place + at.MOUTH_Y] - y) * uy, table[at.RADIUS])
-    return Lane(ux, uy, narrowed(view, ball, 0, Way(x, y, ux, uy, run), Fan(-half, half), 1.0))
+    return Lane(ux, uy, Fan(-half, half), run)
 
 
 @inner
-def to_pocket(view, ball, pocket):
-    """The lane of an object ball into a pocket; its fan is closed if it is blocked."""
+def opened(view, ball, pocket):
+    """The lane that a pocket opens to an object ball, whatever lies beside it; its fan is closed if none is open."""
     table = view.table
     place = at.MOUTHS + at.PER_POCKET * pocket
     x, y = view.row[ball, 0], view.row[ball, 1]
@@ -177,13 +203,28 @@ def to_pocket(view, ball, pocket):
     dx, dy = table[place + at.MOUTH_X] - x, table[place + at.MOUTH_Y] - y
     run = math.sqrt(dx * dx + dy * dy)
     if run < 1e-9:
-        return Lane(1.0, 0.0, Fan(-1.0, 1.0))
+        return Lane(1.0, 0.0, Fan(-1.0, 1.0), 0.0)
     ux, uy = dx / run, dy / run
     facing = -(ux * table[place + at.INWARD_X] + uy * table[place + at.INWARD_Y])
     if facing <= 0.05:
-        return Lane(ux, uy, Fan(0.0, 0.0))
+        return Lane(ux, uy, Fan(0.0, 0.0), run)
     bound = math.atan2(table[place + at.HALF_MOUTH] * facing, run)
-    return Lane(ux, uy, narrowed(view, ball, 0, Way(x, y, ux, uy, run), Fan(-bound, bound), 1.0))
+    return Lane(ux, uy, Fan(-bound, bound), run)
+
+
+@inner
+def unblocked(view, ball, lane):
+    """A lane narrowed by the balls beside it."""
+    if lane.fan.low >= lane.fan.high or lane.run == 0.0:
+        return lane
+    way = Way(view.row[ball, 0], view.row[ball, 1], lane.ux, lane.uy, lane.run)
+    return Lane(lane.ux, lane.uy, narrowed(view, ball, 0, way, lane.fan, 1.0), lane.run)
+
+
+@inner
+def to_pocket(view, ball, pocket):
+    """The lane of an object ball into a pocket; its fan is closed if it is blocked."""
+    return unblocked(view, ball, opened(view, ball, pocket))
 
 
 @inner
@@ -266,23 +307,68 @@ def usual(table, fan, sigma):
 
 
 @inner
-def survey_ball(view, ball, sigma, hand, kitchen, out):
-    """Add one ball to what is known of its group: best pots, difficulty."""
-    own, easy = 0.0, 0.0
+def remember(view, memory, ball):
+    """Find what the pockets open to a ball, unless it lies where it lay."""
+    x, y = view.row[ball, 0], view.row[ball, 1]
+    if memory.place[ball, 0] == x and memory.place[ball, 1] == y:
+        return
+    memory.place[ball, 0], memory.place[ball, 1] = x, y
     for pocket in range(6):
-        lane = to_pocket(view, ball, pocket)
+        lane = opened(view, ball, pocket)
+        kept = memory.lanes[ball, pocket]
+        kept[0], kept[1], kept[2], kept[3], kept[4] = lane.ux, lane.uy, lane.fan.low, lane.fan.high, lane.run
+
+
+@inner
+def remembered(view, memory, ball, pocket):
+    """`to_pocket`, from memory."""
+    kept = memory.lanes[ball, pocket]
+    return unblocked(view, ball, Lane(kept[0], kept[1], Fan(kept[2], kept[3]), kept[4]))
+
+
+@inner
+def survey_ball(view, memory, ball, sigma, task, out):
+    """Add one ball to what is known of its group: its difficulty, and if its player shoots next, best pots."""
+    own, easy, even = 0.0, 0.0, 0.0
+    remember(view, memory, ball)
+    for pocket in range(6):
+        lane = remembered(view, memory, ball, pocket)
         if lane.fan.low >= lane.fan.high:
             continue
-        easy = max(easy, usual(view.table, lane.fan, sigma))
-        if hand:
-            out[at.PLACED] = max(out[at.PLACED], placed(view, ball, lane, sigma, kitchen))
-        else:
+        if 0.5 * (lane.fan.high - lane.fan.low) > even:  # else it cannot be easier than the best so far
+            chance = usual(view.table, lane.fan, sigma)
+            if chance > easy:
+                easy, even = chance, min(-lane.fan.low, lane.fan.high)
+        if task.hand:
+            out[at.PLACED] = max(out[at.PLACED], placed(view, ball, lane, sigma, task.kitchen))
+        elif task.shoots:
             chance, _, _ = straight(view, ball, lane, sigma)
             own = max(own, chance)
     out[at.CHANCE] = max(out[at.CHANCE], own)
     out[at.LAYOUT] -= math.log(max(easy, BLOCKED))
-    if not hand and out[at.SEEN] == 0.0 and (own > 0.0 or is_seen(view, ball)):
+    if task.shoots and not task.hand and out[at.SEEN] == 0.0 and (own > 0.0 or is_seen(view, ball)):
         out[at.SEEN] = 1.0
+
+
+@inner
+def survey_group(view, memory, group, sigma, task, out):
+    """What the balls of a group offer; the 8 counts as one to be made later, and at once if no other is left."""
+    out[:] = 0.0
+    left = 0
+    for ball in range(1 + 8 * group, 8 + 8 * group):
+        if view.row[ball, 0] == view.row[ball, 0]:
+            left += 1
+            survey_ball(view, memory, ball, sigma, task, out)
+    if view.row[8, 0] == view.row[8, 0]:
+        survey_ball(view, memory, 8, sigma, Task(task.shoots and left == 0, task.hand and left == 0, task.kitchen), out)
+        left += 1
+    return left
+
+
+@inner
+def no_memory():
+    """Nothing known yet: no ball lies at NaN."""
+    return Memory(np.full((16, 2), np.nan), np.empty((16, 6, 5)))
 
 
 @compiled
@@ -292,28 +378,68 @@ def survey(table, positions, sigma, hand, kitchen, out):
     Args:
         sigma: rad, of the cue's direction.
         hand: (n,) whether the cue ball is in hand. kitchen: the least y it may have then.
-        out: (n, 2, 4), solids and stripes; see CHANCE and its fellows. The 8 counts for a group that has no other ball.
+        out: (n, 2, 4), solids and stripes; see CHANCE and its fellows.
     """
-    out[:] = 0.0
+    memory = no_memory()
     for n in range(positions.shape[0]):
         view = Layout(table, positions[n])
-        row = view.row
         for group in range(2):
-            mine = out[n, group]
-            left = 0
-            for ball in range(1 + 8 * group, 8 + 8 * group):
-                if row[ball, 0] == row[ball, 0]:
-                    left += 1
-                    survey_ball(view, ball, sigma, hand[n], kitchen, mine)
-            if row[8, 0] != row[8, 0]:
-                continue
-            if left == 0:
-                survey_ball(view, 8, sigma, hand[n], kitchen, mine)
-            else:
-                easy = 0.0
-                for pocket in range(6):
-                    easy = max(easy, usual(table, to_pocket(view, 8, pocket).fan, sigma))
-                mine[at.LAYOUT] -= math.log(max(easy, BLOCKED))
+            survey_group(view, memory, group, sigma, Task(True, hand[n], kitchen), out[n, group])
+
+
+@inner
+def looked_up(values, row, column):
+    """A table's value between its entries, bilinear; beyond its edges the edge's."""
+    most = values.shape[0] - 1
+    row, column = min(max(row, 0.0), float(most)), min(max(column, 0.0), float(most))
+    i, j = min(int(row), most - 1), min(int(column), most - 1)
+    s, t = row - i, column - j
+    low = (1.0 - t) * values[i, j] + t * values[i, j + 1]
+    high = (1.0 - t) * values[i + 1, j] + t * values[i + 1, j + 1]
+    return (1.0 - s) * low + s * high
+
+
+@compiled
+def shooter(race, needs, other, chance, seen):
+    """The shooter's chance to win the game.
+
+    Args:
+        race: (4, m, m), the values of `client.agents.search.race.Race`.
+        needs, other: perfect balls that the shooter and the opponent need, >= 0, the 8 included.
+        chance: of the shooter's best pot. seen: whether any ball can be struck straight.
+    """
+    made, missed = looked_up(race[at.MADE], needs - 1.0, other), looked_up(race[at.MISSED], needs, other)
+    safe = looked_up(race[at.SAFE] if seen else race[at.HIDDEN], needs, other)
+    return max(chance * made + (1.0 - chance) * missed, safe)
+
+
+@compiled
+def worths(table, positions, shooters, terms, race, out):
+    """What each position is worth to its shooter.
+
+    Args:
+        shooters: (group, hand), each (n,): the group that shoots, -1 on an open table (the better one then), and
+            whether the cue ball is in hand.
+        terms: (sigma, kitchen, perfect, pots): as for `survey`; what a layout's hardness is divided by to count as
+            balls; whether pots count, or nothing but safeties.
+        race: as for `shooter`. out: (n,), filled.
+    """
+    group, hand = shooters
+    sigma, kitchen, perfect, pots = terms
+    memory, offers, needs = no_memory(), np.zeros((2, 4)), np.zeros(2)
+    for n in range(positions.shape[0]):
+        view = Layout(table, positions[n])
+        for g in range(2):
+            mine = group[n] == -1 or group[n] == g
+            left = survey_group(view, memory, g, sigma, Task(mine, mine and hand[n], kitchen), offers[g])
+            needs[g] = left + offers[g, at.LAYOUT] / perfect
+        best = 0.0
+        for g in range(2):
+            if group[n] == -1 or group[n] == g:
+                chance = (offers[g, at.PLACED] if hand[n] else offers[g, at.CHANCE]) if pots else 0.0
+                seen = hand[n] or offers[g, at.SEEN] > 0.0
+                best = max(best, shooter(race, needs[g], needs[1 - g], chance, seen))
+        out[n] = best
 
 
 @compiled
