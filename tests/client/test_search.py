@@ -14,6 +14,7 @@ from client.agents.search import SearchAgent
 from client.agents.search.breaks import best_break
 from client.agents.search.budget import Budget, Pace, allowance
 from client.agents.search.engine import geometry
+from client.agents.search.evaluate import AT_ONCE
 from client.agents.search.options import Options
 from client.agents.search.race import race
 from client.agents.search.refine import longest_run
@@ -190,6 +191,55 @@ def test_it_is_never_out_of_time(monkeypatch):
         left -= clock.now - before
         assert left > 0.0
     assert left < 16.0  # and it does use its time
+
+
+class Stalling(Slow):
+    """A machine that stands still for an hour, once, at the batch of this number."""
+
+    def __init__(self, clock, number):
+        super().__init__(clock)
+        self._left = number
+        self.after = 0
+
+    def simulate_batch(self, table, states, shots, threads=1):
+        self._left -= 1
+        self._clock.now += 3600.0 * (self._left == 0)
+        self.after += self._left < 0
+        return super().simulate_batch(table, states, shots, threads)
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 4, 6, 9, 14])
+def test_a_stall_in_any_phase_ends_the_thinking(monkeypatch, number):
+    """Pots, sweep, banks, polishing: what was found until then is played, and nothing more is simulated."""
+    clock = Ticking()
+    monkeypatch.setattr("client.agents.search.agent.time", SimpleNamespace(perf_counter=clock))
+    agent = SearchAgent(seed=1, seconds=2.0)
+    agent.simulator = Stalling(clock, number)
+    balls = {0: (0.5, 1.0), 1: (0.56, 0.06), 9: (0.56, 0.2), 10: (0.5, 0.2), 11: (0.62, 0.2), 8: (0.2, 1.8)}
+    view = view_of(balls, seconds=None)
+    agent.game_started(view)
+    action = agent.choose(view)
+    assert RULES.check(view.to_game(), action) == ()
+    assert clock.now >= 3600.0, "the stall came"
+    assert agent.simulator.after == 0
+
+
+def test_batches_are_small_enough_for_a_clock():
+    """Between two looks at the clock no more than a small part of a second passes."""
+    batches = []
+
+    class Watched(client.Simulator):
+        def simulate_batch(self, table, states, shots, threads=1):
+            batches.append(len(shots))
+            return super().simulate_batch(table, states, shots, threads)
+
+    agent = SearchAgent(seed=1, seconds=0.5)
+    agent.simulator = Watched()
+    balls = {0: (0.5, 1.0), 1: (0.3, 0.3), 2: (0.8, 0.5), 5: (1.0, 1.0), 9: (0.7, 1.7), 8: (0.2, 1.8)}
+    view = view_of(balls)
+    agent.game_started(view)
+    agent.choose(view)
+    assert max(batches) <= AT_ONCE
 
 
 def test_more_seconds_are_more_shots():

@@ -33,6 +33,10 @@ def allowance(options: Options, seconds_left: float | None, shots_left: int | No
     return seconds, shots
 
 
+class TimeUp(Exception):
+    """The seconds of a stroke have passed: what was found until then is played."""
+
+
 class Pace:
     """How many shots a second this agent gets through, learnt from stroke to stroke."""
 
@@ -74,8 +78,13 @@ class Budget:
     @property
     def spent(self) -> float:
         """The share of the budget that is used up; 1 and more when it is gone."""
-        by_time = (self._clock() - self._started) / self._seconds if self._seconds < math.inf else 0.0
+        by_time = (self._clock() - self._started) / self._seconds if self.is_timed else 0.0
         return max(by_time, self.simulated / self._shots)
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether seconds count."""
+        return self._seconds < math.inf
 
     def charge(self, shots: int) -> None:
         """So many shots were simulated."""
@@ -83,5 +92,5 @@ class Budget:
 
     def close(self) -> None:
         """The stroke is chosen: the pace is learnt from it."""
-        if self._seconds < math.inf:
+        if self.is_timed:
             self._pace.learn(self.simulated, self._clock() - self._started)

@@ -112,7 +112,7 @@ class Race:
 
     def _mixed(self, mixture: Mixture) -> Floats:
         """The shooter faces one of several chances."""
-        total = np.zeros_like(self.values[MADE])
+        total: Floats = np.zeros((MOST + 1, MOST + 1))
         for chance, share in mixture:
             total += share * self._facing(chance)
         return total

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from client.agents.search.race import race
 from client.agents.search.shots import Floats, Groups, Tables
-from client.agents.search.sight import Sight
+from client.agents.search.sight import Sight, Terms
 from referee.rules.batch_rulings import OPEN, Verdicts
 
 
@@ -18,13 +18,14 @@ class Values:
     sight: Sight
     noise: float
 
-    def after(self, positions: Floats, verdicts: Verdicts) -> Floats:
-        """What each stroke's result is worth to the one who played it, (n,), in [0, 1]."""
+    def after(self, before: Floats, positions: Floats, verdicts: Verdicts) -> Floats:
+        """What each stroke's result is worth to the one who played it, (n,), in [0, 1]; `before` the tables before."""
         going = ~(verdicts.won | verdicts.lost) & verdicts.played
         worth = np.where(verdicts.won, 1.0, 0.0)
         continues, group = verdicts.continues[going], verdicts.group[going]
         mover = np.where(continues | (group == OPEN), group, 1 - group).astype(np.int8)
-        found = self.to_shoot(positions[going], mover, verdicts.fouled[going])
+        left = Tables(positions[going], mover)
+        found = self.sight.worths(left, before[going], verdicts.fouled[going], race(self.noise), Terms())
         worth[going] = np.where(continues, found, 1.0 - found)
         return worth
 
@@ -34,9 +35,9 @@ class Values:
         Args:
             group: the shooter's. hand: whether the cue ball is in hand; kitchen: the least y it may be put at then.
         """
-        return self.sight.worths(positions, group, hand, kitchen, race(self.noise))
+        return self.sight.worths(Tables(positions, group), positions, hand, race(self.noise), Terms(kitchen))
 
     def without_pot(self, tables: Tables) -> Floats:
         """What each position is worth to its shooter when no ball is potted: a safety, or a miss."""
         nowhere = np.zeros(len(tables), bool)
-        return self.sight.worths(tables.positions, tables.group, nowhere, 0.0, race(self.noise), pots=False)
+        return self.sight.worths(tables, tables.positions, nowhere, race(self.noise), Terms(pots=False))
