@@ -109,15 +109,17 @@ class Seat:
         if not self._started:
             agent.game_started(view)
             self._started = True
-        if not isinstance(agent, SearchAgent):
-            before = time.process_time()
+        known, before = len(getattr(agent, "thoughts", ())), time.process_time()
+        if isinstance(agent, SearchAgent) and agent.counts_shots_alone:
+            action = yield from agent.thinking(view)
+            seconds = 0.0
+        else:  # one that looks at a clock thinks alone: the clock would run on while others do
             action = agent.choose(view)
-            return action, None, 0, time.process_time() - before
-        known = len(agent.thoughts)
-        action = yield from agent.thinking(view)
-        if len(agent.thoughts) == known:
-            return action, None, 0, 0.0
-        return action, agent.thoughts[-1].worth, agent.thoughts[-1].simulated, 0.0
+            seconds = time.process_time() - before
+        thoughts = getattr(agent, "thoughts", [])
+        if len(thoughts) == known:
+            return action, None, 0, seconds
+        return action, thoughts[-1].worth, thoughts[-1].simulated, seconds
 
 
 @dataclass(frozen=True, slots=True)

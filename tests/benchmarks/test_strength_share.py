@@ -51,6 +51,16 @@ def test_answers_to_many_questions_are_the_answers_to_each():
     assert (alone[0][:3] != alone[2][:3]).any()  # R38: from the kitchen the same strokes foul
 
 
+def test_a_player_with_a_clock_thinks_alone():
+    """Its seconds are its own: they do not pass while others think, and they are told."""
+    games = play(MatchUp(("search:seconds=0.02,cpu=on", "search:shots=3000"), noise=1.0, pairs=4, seed=2))
+    strokes, seconds = (sum(getattr(game, name)[0] for game in games) for name in ("strokes", "seconds"))
+    simulated = sum(game.simulated[0] for game in games)
+    assert seconds > 0.0
+    assert sum(game.seconds[1] for game in games) == 0.0
+    assert simulated > 50 * strokes
+
+
 def test_another_agent_may_sit_there():
     (game, _) = play(MatchUp(("random", "search:shots=100"), noise=1.0, pairs=1, seed=1))
     assert game.winner in (0, 1)

@@ -52,6 +52,11 @@ class SearchAgent(Agent):
         """The best stroke, or the decision that leads to the best position."""
         return answered(self.thinking(view), self.judge())
 
+    @property
+    def counts_shots_alone(self) -> bool:
+        """Whether no clock limits it: then who else thinks meanwhile changes nothing."""
+        return self._options.shots > 0
+
     def judge(self) -> Judge:
         """What answers this agent's questions: the physics, counted, and the values of this game."""
         return Judge(self._rules.table, self._values, self.simulator.simulate_batch)
