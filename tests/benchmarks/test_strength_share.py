@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import physics
-from benchmarks import strength
+from benchmarks import choices, strength
 from benchmarks.lockstep import MatchUp, Played, Turn, play
 from client.agents.search.evaluate import Judge, Question
 from client.agents.search.sight import Sight
@@ -102,3 +102,13 @@ def test_what_was_reckoned_is_compared_with_what_was_won():
     rows = strength.reckoned_rows(MatchUp(("a", "b"), 1.0), [played(0, 0, 0, turns)], 0)
     assert [(row["from"], row["strokes"], row["won"]) for row in rows] == [(0.2, 1, 1.0), (0.9, 2, 1.0)]
     assert strength.log_loss(np.array([0.5, 0.5]), np.array([1.0, 0.0])) == pytest.approx(np.log(2.0), abs=1e-4)
+
+
+def test_choices_are_judged_in_the_same_positions():
+    """The first player is the measure of the others; the same run gives the same rows."""
+    players = ("shots=200", "shots=200,polish=off")
+    rows = list(choices.rows("olympiad", 2.0, players, 3, 40))
+    assert [row["player"] for row in rows] == list(players)
+    assert rows[0]["gain"] == 0.0
+    assert all(0.0 < row["worth"] < 1.0 and row["positions"] == 3 for row in rows)
+    assert rows == list(choices.rows("olympiad", 2.0, players, 3, 40))
