@@ -1,12 +1,16 @@
-"""What flight costs where nothing flies and where something does, and what hangs on parameters that nobody measured."""
+"""What flight costs where nothing flies and where something does, what skipping saves, how far time steps are out, and
+what hangs on parameters that nobody measured.
+"""
 
 import statistics
+import time
 from collections.abc import Iterator
 
 import numpy as np
 
 import physics
-from benchmarks import real_tables, scenes
+from benchmarks import real_tables, scenes, timing, unfiltered, variants
+from benchmarks.opponents import air_stepping
 from benchmarks.recording import Row
 from benchmarks.scenes import Floats
 
@@ -67,6 +71,78 @@ def beside(name: str, base: Workload, now: Workload, pairs: int) -> Row:
         "ratio_per_event": round(ratio * events[0] / events[1], 3),
         "same_bits": None,
     }
+
+
+def scenes_saved(n: int) -> Iterator[tuple[str, Workload]]:
+    """Level shots and jumps among 8 and 16 balls."""
+    for balls in (8, 16):
+        states, shots = levelled(FLYING, n, balls)
+        yield f"{balls} balls, level cue", (FLYING, states, shots)
+        yield f"{balls} balls, jumps", (FLYING, states, raised(states, shots))
+
+
+def savings(n: int) -> Iterator[Row]:
+    """Work an event, counted; and how many times its cost it costs without filter and broad phase."""
+    usual = costs_of_events(n)
+    without = variants.run(f"{unfiltered.__name__}:look_at_everything", f"{__name__}:costs_of_events", n)
+    for name, (table, states, shots) in scenes_saved(n):
+        counts = np.zeros((len(shots), 4), np.int64)
+        events = int(physics.simulate_batch(table, states, shots, counters=counts).n_events.sum())
+        looks, left, solved, boundary = (counts.sum(axis=0) / events).tolist()
+        others = (~np.isnan(states[:, :, 0])).sum(axis=1) - 1
+        yield {
+            "scene": name,
+            "events_per_shot": round(events / len(shots), 2),
+            "predictions": round(looks, 3),
+            "pairs_seen": round(float((counts[:, 0] * others).sum() / events), 2),
+            "left_by_filter": round(left, 3),
+            "solved": round(solved, 3),
+            "boundary_looks": round(boundary, 3),
+            "without_filter_and_broad_phase": round(without[name] / usual[name], 2),
+        }
+
+
+def costs_of_events(n: int) -> dict[str, float]:
+    """Pairs an event by scene, in the process it runs in."""
+    found = {}
+    for name, work in scenes_saved(n):
+        events = int(physics.simulate_batch(*work).n_events.sum())
+        found[name] = timing.in_pairs(lambda work=work: physics.simulate_batch(*work), 5)[1] / events  # type: ignore[misc]
+    return found
+
+
+def hops(n: int) -> tuple[Floats, Floats]:
+    """A lone ball that jumps up the table and lands once or more within a second, far from every cushion."""
+    rng, states, shots = np.random.default_rng(22), np.full((n, 16, 2), np.nan), np.zeros((n, 5))
+    states[:, 0] = 0.635, 0.3
+    shots[:, 0], shots[:, 1] = rng.uniform(1.0, 2.0, n), rng.uniform(85.0, 95.0, n)
+    shots[:, 2], shots[:, 4] = rng.uniform(25.0, 50.0, n), rng.uniform(0.0, 8.0, n)
+    return states, shots
+
+
+def error_vs_time(n: int, steps: list[float]) -> Iterator[Row]:
+    """Run time against error a second into hops: this engine, and time stepping; truth as in ``real_tables``."""
+    states, shots = hops(n)
+    truths = [real_tables.truth(FLYING, state, shot) for state, shot in zip(states, shots, strict=True)]
+    many = 200
+    work = FLYING, np.tile(states, (many, 1, 1)), np.tile(shots, (many, 1))
+    seconds = timing.cpu_seconds(lambda: physics.simulate_batch(*work))
+    results = [real_tables.played(FLYING, state, shot) for state, shot in zip(states, shots, strict=True)]
+    ends = [result.at(min(real_tables.HORIZON, result.duration)).positions[0] for result in results]
+    yield real_tables.errors("this engine", None, seconds / many / n, ends, truths)
+    for back_up in (False, True):
+        for step in steps:
+            ends, seconds = [], 0.0
+            for result in results:
+                cue = result.events[0].states[0]
+                ball = np.array([*cue.position, *cue.velocity, *cue.spin, cue.height, cue.velocity_z])
+                air_stepping.simulate(FLYING, ball.copy(), step, step, back_up)  # compiled before
+                started = time.thread_time()
+                air_stepping.simulate(FLYING, ball, real_tables.HORIZON, step, back_up)
+                seconds += time.thread_time() - started
+                ends.append(ball[:2])
+            name = "time stepping, backing up" if back_up else "time stepping"
+            yield real_tables.errors(name, step, seconds / n, ends, truths)
 
 
 def choices(n: int) -> Iterator[Row]:

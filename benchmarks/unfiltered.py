@@ -94,3 +94,11 @@ def replayed(jobs: list[tuple[str, int, int]]) -> list[Hashes]:
         if done % 10 == 0:
             print(f"{done} of {len(jobs)} chunks without filter", flush=True)
     return found
+
+
+def left_by(scenes: list[tuple[physics.Table, dict[int, tuple[float, float]], physics.Shot]]) -> list[Hashes]:
+    """Hashes of single shots."""
+    return [
+        hashes_of(physics.simulate_batch(table, physics.TableState.from_positions(balls), [shot]))
+        for table, balls, shot in scenes
+    ]

@@ -12,8 +12,10 @@ from client.agents.registry import Player, factory_of
 from client.calls import TurnMessage
 from client.errors import AgentUnstartable, BudgetSpent, Conflict, PooliadError, StaleVersion, Unprocessable
 from client.http import Pooliad
+from client.prepare import prepare
 from client.retry import Retry
 from client.session import GameSessions, log
+from physics import Table
 from protocol import GameOver, MatchOver, SeedWanted, Turn, View
 from protocol.matches import MatchStatus
 from referee.play.seeds import SEED_BYTES
@@ -154,8 +156,12 @@ class TurnLoop:
         return None
 
     def _add_seed(self, match_id: str) -> None:
-        """Add to the draw, so that the server alone cannot have chosen it; too late is no harm."""
+        """Add to the draw, so that the server alone cannot have chosen it; too late is no harm.
+
+        The match begins with the seed, and with it the clock: so the physics of its table is loaded first.
+        """
         try:
+            prepare(Table.from_dict(self._server.match(match_id).table))
             self._server.add_seed(match_id, secrets.token_hex(SEED_BYTES))
         except Conflict as error:
             log.warning("match %s: no seed was added: %s", match_id, error)

@@ -12,6 +12,7 @@ from client.cli.players import load_player
 from client.cli.tables import TableCommand
 
 if TYPE_CHECKING:
+    from client.agents.registry import Player
     from protocol import MatchOver
     from referee import Game
 
@@ -46,7 +47,7 @@ def run(
     from client.run import run_agent, serve_agent
 
     _prepare(token)
-    player = load_player(name, seed)
+    player = _ready(name, seed)
     if forever:
         serve_agent(player, url, token)
     _report(run_agent(player, url, token), as_json)
@@ -70,16 +71,8 @@ def spar(
     from client.sparring import spar as play
 
     _prepare(token)
-    over = play(
-        load_player(name, seed),
-        url,
-        token,
-        bot,
-        games=games,
-        noise=noise,
-        seconds=seconds,
-        start=None if start is None else read_position(start),
-    )
+    begin = None if start is None else read_position(start)
+    over = play(_ready(name, seed), url, token, bot, games=games, noise=noise, seconds=seconds, start=begin)
     _report(over, as_json)
 
 
@@ -94,6 +87,18 @@ def _prepare(token: str) -> None:
         fail("--token holds characters that no token has: letters, digits and signs of ASCII only", USAGE)
     logging.basicConfig(stream=sys.stderr, format="%(asctime)s %(levelname)s %(message)s")
     report_if_asked()
+
+
+def _ready(name: str, seed: int | None) -> "Player":
+    """The player of a name, with the physics loaded before a clock runs; a command's is its own."""
+    from client.agents.registry import STDIO
+    from client.prepare import prepare
+    from physics import Table
+
+    player = load_player(name, seed)
+    if not name.startswith(STDIO):
+        prepare(Table.olympiad())
+    return player
 
 
 def read_position(file: Path) -> "Game":

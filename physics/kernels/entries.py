@@ -12,11 +12,14 @@ from numba import types
 
 from physics.kernels import layout as at
 from physics.kernels import tasks
+from physics.kernels.apart import load_apart
 from physics.kernels.compiling import row
 from physics.kernels.detect.contact import contact_time
 from physics.kernels.entry import COUNTERS, FACTS, FLOAT, INTEGER, NONE, POCKETS, READ, WRITTEN, entry
 from physics.kernels.path import Path
-from physics.kernels.workspace import bare_workspace, workspace
+from physics.kernels.workspace import Workspace, bare_workspace, workspace
+
+load_apart(Workspace)
 
 
 @entry(NONE, READ, WRITTEN, READ, READ, WRITTEN, POCKETS, FACTS, WRITTEN, COUNTERS)

@@ -10,9 +10,9 @@ from physics.kernels.detect.contact import contact_time
 from physics.kernels.detect.edges_in_air import meets_ring
 from physics.kernels.entry import COUNTERS, FACTS, FLOAT, INTEGER, NONE, POCKETS, READ, WRITTEN, entry
 from physics.kernels.path import RingPath, SpacePath
-from physics.kernels.workspace import bare_real_workspace, real_workspace
+from physics.kernels.workspace import RealWorkspace, bare_real_workspace, real_workspace
 
-load_apart()
+load_apart(RealWorkspace)
 
 
 @entry(NONE, READ, WRITTEN, READ, READ, WRITTEN, POCKETS, FACTS, WRITTEN, COUNTERS)

@@ -24,8 +24,8 @@ ROUNDING_ACROSS = 1e-14
 Smaller, and a ball held at a facing would be held again for ever; in 10 s it comes nearer by 1e-13 m."""
 
 PRESSING = 1e-14
-"""m/s^2. Touching balls whose relative acceleration presses them together no harder are not pressed: over the 10 s of
-a shot that is 5e-13 m."""
+"""m/s^2. Touching balls whose relative acceleration presses them together no harder are not pressed, nor is a ball
+brought back to a nose that it leaves or runs along: over the 10 s of a shot that is 5e-13 m."""
 
 PARTING_SLACK = 1e-12
 """m/s. After step 3 of the contact rule a pair may open by so much less than it should, or close by so much. Smaller,
@@ -73,6 +73,9 @@ at a gap far below ``TOUCH``."""
 
 ROOT_RESIDUAL = 2e-17
 """m^2. |d|^2 - (2R)^2 at which a contact counts as reached: a gap of 2e-16 m, the rounding of d itself."""
+
+GRAZE = 1.0 + 1e-13
+"""Factor of a squared distance: 3e-15 m at a ball's diameter, above the rounding of a path's distance on any table."""
 
 SETTLED_STEPS = 8
 """Newton's steps back to where balls that touched, and have parted, meet. At the cap, or where they lead away, the

@@ -359,3 +359,20 @@ def test_throw_and_banks_as_simulated():
         outs.append(math.degrees(math.atan2(vy, -vx)))
     assert max(outs) - min(outs) > 5.0
     assert outs[1] == pytest.approx(43.7, abs=0.1)
+
+
+def test_balls_that_start_deep_in_a_jaw_are_not_pushed_into_each_other():
+    """Seen: placed by a horn, 2e-12 m deep in its facing; put right at one stroke, it overlapped its neighbour so."""
+    balls = {0: (1.207840106396312, 0.020334755384854228), 7: (1.2482512589411232, 0.060745907929665416)}
+    shot = physics.Shot(0.000574827075517724, -176.5030140872976, 5.0, -16.2636204940389, 12.527145170201848)
+    final = physics.simulate(NINE, physics.TableState.from_positions(balls), shot).final.positions
+    assert math.dist(final[0], final[7]) > 2 * R - 1e-12
+
+
+def test_a_ball_that_a_denormal_number_presses_at_a_nose_comes_to_rest():
+    """Seen: 1e-316 m/s across the nose, gone before its acceleration was: the same contact for ever, EVENT_LIMIT."""
+    state = physics.TableState.from_positions({0: (0.08400878543401175, 2.5124862662941307)})
+    shot = physics.Shot(12.0, 360.0, 85.0, -1.8369702e-316, -1e-300)
+    result = physics.simulate(NINE, state, shot)
+    assert result.status is Status.AT_REST
+    assert result.n_events < 6

@@ -88,10 +88,13 @@ def meets_facing(jaw, rho, path, lasts):
 
 @kernel
 def touches_strip(jaw, rho, s, d):
-    """Whether a centre touches the nose, or the facing, beside it: then it is not the horn that it meets."""
+    """Whether a centre at a horn touches the nose or the facing: then it is not the horn that it meets.
+
+    A centre that comes along the nose line is found at the horn up to a micrometre before the nose begins, for there
+    the two are a rounded place apart.
+    """
     gap, foot = from_facing(jaw, s, d)
-    at_nose = (s >= jaw.nose_end) & (abs(d - rho) <= TOUCH)
-    return at_nose | ((foot >= 0.0) & (abs(gap - rho) <= TOUCH))
+    return (abs(d - rho) <= TOUCH) | ((foot >= 0.0) & (abs(gap - rho) <= TOUCH))
 
 
 @kernel

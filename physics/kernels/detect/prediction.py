@@ -16,7 +16,7 @@ from physics.kernels.detect.contact import contact
 from physics.kernels.detect.mouths import meet_rails
 from physics.kernels.motion import moves
 from physics.kernels.path import Path, in_space, path_of, rise_of, seen_from
-from physics.kernels.tolerances import TOUCH
+from physics.kernels.tolerances import GRAZE, TOUCH
 from physics.kernels.workspace import RealWorkspace, by_table
 
 
@@ -49,6 +49,23 @@ def count(s, counter):
 
 
 @small_kernel
+def exactly(_s, squared):
+    """See ``near_enough``."""
+    return squared
+
+
+@small_kernel
+def nearly(_s, squared):
+    """See ``near_enough``."""
+    return squared * GRAZE
+
+
+near_enough = by_table(exactly, nearly)
+"""``near_enough(s, squared)``: squared distance from which on the filter lets a pair go, m^2. Balls that pass at just
+a diameter are the solver's to judge; on tables with straight mouths the filter's rounding may judge them, as ever."""
+
+
+@small_kernel
 def partners_on_cloth(s, _i, path, now, limit):
     """Bit set of the balls whose path may meet this one before either's next event.
 
@@ -58,7 +75,7 @@ def partners_on_cloth(s, _i, path, now, limit):
     """
     limit = min(limit, FOREVER)
     diameter = 2.0 * load(s.p, at.P_RADIUS)
-    squared = diameter * diameter
+    squared = near_enough(s, diameter * diameter)
     touching = (diameter + TOUCH) * (diameter + TOUCH)
     found = 0
     for j in range(at.LANES):
@@ -88,7 +105,7 @@ def partners_in_space(s, i, path, now, limit):
     """
     limit = min(limit, FOREVER)
     diameter = 2.0 * load(s.p, at.P_RADIUS)
-    squared = diameter * diameter
+    squared = near_enough(s, diameter * diameter)
     touching = (diameter + TOUCH) * (diameter + TOUCH)
     height = rise_of(s, i, now).z
     found = 0

@@ -13,6 +13,7 @@ from physics.kernels.compiling import kernel, load, load_integer, plain, small_k
 from physics.kernels.detect.jaws import from_facing
 from physics.kernels.detect.mouths import end_jaw, is_corner, jaw_at, rail_touched, signs_of, upper_jaw
 from physics.kernels.motion import on_table
+from physics.kernels.path import path_of
 from physics.kernels.recording import record
 from physics.kernels.resolve.cushion_laws import han, mathavan
 from physics.kernels.resolve.fixed import impact
@@ -26,7 +27,7 @@ from physics.kernels.resolve.rails_in_air import (
     returns_in_air,
     touched_in_air,
 )
-from physics.kernels.tolerances import ROUNDING_ACROSS
+from physics.kernels.tolerances import DEEPER, ROUNDING_ACROSS, TOUCH
 from physics.kernels.workspace import RealWorkspace
 
 
@@ -96,11 +97,16 @@ def wall_at(s, number, i):
 
 
 @small_kernel
+def is_slanted(wall):
+    """Whether a wall lies along neither axis: then a component across it is rounded."""
+    return (wall.nx != 0.0) & (wall.ny != 0.0)
+
+
+@small_kernel
 def across(wall, x, y):
     """Component of a velocity away from a wall, m/s; of a slanted one 0 where it may be rounding of one along it."""
     speed = x * wall.nx + y * wall.ny
-    slanted = (wall.nx != 0.0) & (wall.ny != 0.0)
-    return 0.0 if slanted & (abs(speed) <= ROUNDING_ACROSS) else speed
+    return 0.0 if is_slanted(wall) & (abs(speed) <= ROUNDING_ACROSS) else speed
 
 
 @small_kernel
@@ -113,7 +119,7 @@ def opening(s, wall, i):
 def half_away(s, wall, i):
     """Half the acceleration at which ball ``i`` parts from a wall, m/s^2; along a horn |v|^2 / 2(r + rho) parts it too.
 
-    The cloth's friction opposes slip or velocity: where that has nothing across the wall, friction has nothing.
+    The cloth's friction opposes slip or velocity: where that has nothing across a slanted wall, friction has nothing.
     """
     vx, vy = load(s.w, at.VX + i), load(s.w, at.VY + i)
     ux, uy = vx, vy
@@ -122,7 +128,7 @@ def half_away(s, wall, i):
         ux, uy = vx - radius * load(s.w, at.WY + i), vy + radius * load(s.w, at.WX + i)
     along = vy * wall.nx - vx * wall.ny
     curved = 0.5 * wall.bend * along * along
-    if across(wall, ux, uy) == 0.0:
+    if is_slanted(wall) & (across(wall, ux, uy) == 0.0):
         return curved
     return load(s.w, at.HX + i) * wall.nx + load(s.w, at.HY + i) * wall.ny + curved
 
@@ -142,15 +148,35 @@ def speed_towards(s, i, number):
     return -opening(s, wall, i)
 
 
+@kernel
+def touches_ball(s, i):
+    """Whether ball ``i`` touches another ball."""
+    near = 2.0 * load(s.p, at.P_RADIUS) + TOUCH
+    x, y = load(s.w, at.X + i), load(s.w, at.Y + i)
+    for j in range(at.LANES):
+        if j != i and on_table(load_integer(s.k, at.MOTION + j)):
+            here = path_of(s, j, load(s.w, at.SINCE + i))
+            dx, dy = here.x - x, here.y - y
+            if dx * dx + dy * dy <= near * near:
+                return True
+    return False
+
+
 @small_kernel
 def put_at(s, wall, i):
-    """Put a ball that touches a wall exactly at its contact distance."""
+    """Put a ball that touches a wall exactly at its contact distance.
+
+    A ball may start deep in a jaw by the tolerance of a placement. While it touches another ball it is put right by
+    DEEPER at most, which is what it comes nearer between two contacts: all at once it would overlap that ball.
+    """
     if wall.nx == 0.0:
         store(s.w, at.Y + i, -wall.ny * load(s.p, at.P_LINE_Y))
     elif wall.ny == 0.0:
         store(s.w, at.X + i, -wall.nx * load(s.p, at.P_LINE_X))
     else:
         missing = load(s.p, at.P_RHO) - wall.distance
+        if missing > DEEPER and touches_ball(s, i):
+            missing = DEEPER
         store(s.w, at.X + i, load(s.w, at.X + i) + missing * wall.nx)
         store(s.w, at.Y + i, load(s.w, at.Y + i) + missing * wall.ny)
 
