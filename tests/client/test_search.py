@@ -12,7 +12,7 @@ import physics
 from client.agents.registry import titles
 from client.agents.search import SearchAgent
 from client.agents.search.breaks import best_break
-from client.agents.search.budget import Budget, Pace, allowance
+from client.agents.search.budget import GUESS, Budget, Pace, allowance
 from client.agents.search.engine import geometry
 from client.agents.search.evaluate import AT_ONCE
 from client.agents.search.options import Options
@@ -178,7 +178,7 @@ class Slow(client.Simulator):
 
 
 def test_it_is_never_out_of_time(monkeypatch):
-    """Forty strokes on a clock of 20 s, on a machine three times slower than it guesses at first."""
+    """Forty strokes on a clock of 20 s, on a machine six times slower than it guesses at first."""
     clock, left = Ticking(), 20.0
     monkeypatch.setattr("client.agents.search.agent.time", SimpleNamespace(perf_counter=clock))
     agent = SearchAgent(seed=1, seconds=2.0)
@@ -276,6 +276,7 @@ def test_a_budget_of_shots_and_seconds_is_spent_by_either():
     assert shots == 60_000
     clock = Ticking()
     budget = Budget(Pace(), shots, seconds, clock)
+    assert budget.total == int(seconds * GUESS)
     clock.now = 0.6
     assert budget.spent > 1.0
     other = Budget(Pace(), shots, seconds, clock)
@@ -298,6 +299,18 @@ def test_a_budget_of_seconds_learns_how_far_it_goes():
         budget.close()
     assert pace.per_second == pytest.approx(100_000, rel=0.02)
     assert Budget(pace, 0, 0.5, clock).total == pytest.approx(50_000, rel=0.02)
+
+
+def test_a_stroke_tells_itself_how_far_its_seconds_go():
+    """From the first thousand shots on; a new agent on a fast machine uses its time on the first stroke already."""
+    clock = Ticking()
+    budget = Budget(Pace(), 0, 0.5, clock)
+    budget.charge(999)
+    clock.now = 0.001
+    assert budget.total == int(0.5 * GUESS)
+    budget.charge(1001)
+    clock.now = 0.01
+    assert budget.total == 100_000
 
 
 @pytest.mark.parametrize(

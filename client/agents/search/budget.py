@@ -6,8 +6,10 @@ from collections.abc import Callable
 
 from client.agents.search.options import LEAST_SECONDS, MOST_SHOTS, Options
 
-GUESS = 30_000.0
+GUESS = 60_000.0
 """Simulated shots a second, all work around them included, before anything was measured."""
+TELLING = 1000
+"""Simulated shots of a stroke from which on they tell how fast this one goes."""
 SMOOTHING = 0.3
 """Weight of the latest stroke in the measured speed."""
 SHARE = 0.06
@@ -73,7 +75,13 @@ class Budget:
     @property
     def total(self) -> int:
         """Shots that may be simulated in all, as far as that is known."""
-        return int(min(self._shots, self._seconds * self._pace.per_second, MOST_SHOTS))
+        return int(min(self._shots, self._seconds * self._per_second, MOST_SHOTS))
+
+    @property
+    def _per_second(self) -> float:
+        """How fast it goes: as seen in this stroke once that tells, before as in the strokes before."""
+        passed = self._clock() - self._started if self.is_timed and self.simulated >= TELLING else 0.0
+        return self.simulated / passed if passed > 0.0 else self._pace.per_second
 
     @property
     def spent(self) -> float:

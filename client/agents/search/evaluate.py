@@ -21,7 +21,7 @@ from referee.rules.batch_rulings import read_verdicts
 
 SIGMAS = np.array([SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B])
 """Standard deviations of a stroke's columns at level 1."""
-AT_ONCE = 2000
+AT_ONCE = 1000
 """Strokes of a question to a clock: it is looked at between them."""
 
 Simulate = Callable[[Table, Floats, Floats], Batch]
