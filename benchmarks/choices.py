@@ -1,8 +1,8 @@
 """What a budget buys: the worth of the stroke that `search` chooses, judged afterwards by copies without a part in it.
 
-Positions come from lock-step games. In each, every player thinks once, and its choice is played a thousand times under
+Positions come from lock-step games. In each, every player thinks once, and its choice is played many times under
 fresh noise, the same for all; the mean of what the tables left are worth is the worth of the choice. Differences are
-paired by position: a hundred tell half a hundredth. The judge is the agent's own value of tables, so that this
+paired by position: thirty tell half a hundredth. The judge is the agent's own value of tables, so that this
 measures how well it finds what it looks for, not whether it looks for the right thing; games tell that (`strength`).
 """
 
@@ -28,19 +28,11 @@ from physics import Table, TableState
 from referee import Action, Call, EightBall, Game, Group, Phase
 from referee.rules.batch_rulings import SAFETY_CALL
 
-PLAYERS = (
-    "shots=300",
-    "shots=1000",
-    "shots=3000",
-    "shots=10000",
-    "shots=10000,polish=off",
-    "shots=10000,banks=off",
-    "shots=10000,jumps=off",
-)
+PLAYERS = ("shots=1000", "shots=10000", "shots=10000,polish=off")
 """The first is what the others are compared with."""
-SHORT = PLAYERS[:2]
-SCENES = (("olympiad", 1.0), ("olympiad", 5.0), ("nine_foot", 1.0), ("nine_foot", 2.0), ("nine_foot", 5.0))
-POSITIONS, COPIES = {True: 100, False: 4}, {True: 1000, False: 50}
+SHORT = ("shots=300", "shots=1000")
+SCENES = (("nine_foot", 2.0), ("nine_foot", 5.0))
+POSITIONS, COPIES = {True: 30, False: 4}, {True: 600, False: 50}
 GROUPS = {-1: None, 0: (Group.SOLIDS, Group.STRIPES), 1: (Group.STRIPES, Group.SOLIDS)}
 SEED = 77
 
