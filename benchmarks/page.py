@@ -1,8 +1,13 @@
-"""The page with 30 live games: what it takes of a processor, what the server takes beside it, and its longest frame.
+"""The page with 30 live games: what it takes of a processor, what the server takes beside it, its longest frame.
+
+And how soon the page of a game shows its table.
 
 A real server, strokes of simple players over HTTP at a steady rate, Chromium without a window and without a graphics
 card. The browser's time is that of all its processes. It is measured first with the page alone, then frames are
 timed, from one to the next as the page is told of them: asking for every frame costs time of its own.
+
+A page that is opened for the first time loads everything; the time is that from the navigation's start to the frame in
+which the balls are drawn.
 
 Takes a minute, or two in a full run, whatever the machine: what cannot be played in time is not played.
 """
@@ -32,6 +37,16 @@ SETTINGS = {
     "POOLIAD_LOG_LEVEL": "error",
     "POOLIAD_NO_SHOW_SECONDS": "86400",
 }
+OPENINGS, FEW_OPENINGS = 40, 10
+WATCH_TABLE = """
+  const look = () => {
+    const named = document.querySelector("h1")?.textContent.includes("–");
+    const drawn = named && document.querySelector(".table canvas")?.style.width;
+    requestAnimationFrame(drawn ? () => { window.table_seen = performance.now(); } : look);
+  };
+  requestAnimationFrame(look);
+"""
+"""The names and the balls are drawn together; the frame after that has been shown."""
 TICKS = os.sysconf("SC_CLK_TCK")
 WATCH_FRAMES = """() => {
   window.frames_seen = [];
@@ -52,7 +67,9 @@ def measure(full: bool) -> Tables:
         page.goto(url)
         page.locator("a.thumbnail .names").nth(GAMES - 1).wait_for()
         games.play(WARM_UP)
-        return {"live": [_processors(games, process.pid, seconds) | _frames(page, games, seconds)]}
+        live = _processors(games, process.pid, seconds) | _frames(page, games, seconds)
+        page.close()
+        return {"live": [live], "opened": [_openings(chromium, url, games, OPENINGS if full else FEW_OPENINGS)]}
 
 
 def _wait_until_ready(url: str) -> None:
@@ -88,6 +105,26 @@ def _frames(page: Any, games: Games, seconds: float) -> Row:
         "median_ms": frames[len(frames) // 2],
         "p99_ms": frames[int(0.99 * len(frames))],
         "longest_ms": frames[-1],
+    }
+
+
+def _openings(chromium: Any, url: str, games: Games, count: int) -> Row:
+    """Times from a navigation to the first frame with the balls, ms, each in a browser context of its own."""
+    times = []
+    for _ in range(count):
+        context = chromium.new_context(viewport={"width": 1280, "height": 800})
+        page = context.new_page()
+        page.add_init_script(WATCH_TABLE)
+        page.goto(f"{url}/#/games/{games.newest()}")
+        page.wait_for_function("() => window.table_seen")
+        times.append(page.evaluate("window.table_seen"))
+        context.close()
+    times.sort()
+    return {
+        "openings": count,
+        "median_ms": times[count // 2],
+        "p95_ms": times[int(0.95 * count)],
+        "longest_ms": times[-1],
     }
 
 

@@ -42,6 +42,11 @@ class Games:
         headers = {"Authorization": f"Bearer {token}", "Idempotency-Key": uuid.uuid4().hex, "If-Match": f'"{version}"'}
         return self._http.request(method, path, headers=headers, **options)
 
+    def newest(self) -> str:
+        """A game that is played: that of the match whose turn it is."""
+        match, _ = self._matches[self._next]
+        return str(json.loads(self._http.get(f"/v1/matches/{match}").content)["played"][-1]["id"])
+
     def play(self, seconds: float) -> tuple[int, int]:
         """One stroke in each match after another, for so long; how many were played, how many not taken."""
         began, strokes, refused = time.perf_counter(), 0, 0

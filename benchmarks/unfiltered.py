@@ -6,6 +6,7 @@ the shipped kernels leave out must have been nothing: positions, pockets, facts 
 
 import hashlib
 import importlib
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -96,7 +97,7 @@ def replayed(jobs: list[tuple[str, int, int]]) -> list[Hashes]:
     return found
 
 
-def left_by(scenes: list[tuple[physics.Table, dict[int, tuple[float, float]], physics.Shot]]) -> list[Hashes]:
+def left_by(scenes: Sequence[tuple[physics.Table, dict[int, tuple[float, float]], physics.Shot]]) -> list[Hashes]:
     """Hashes of single shots."""
     return [
         hashes_of(physics.simulate_batch(table, physics.TableState.from_positions(balls), [shot]))

@@ -16,7 +16,8 @@ ACCELERATION = 5.0
 def outliers(shot: ObservedShot, sigma: float) -> NDArray[np.bool_]:
     """Which samples neither go on from the two before, nor lead to the two after, nor lie between their neighbours.
 
-    A sample beside a collision does one of these; a false detection none.
+    A sample beside a collision does one of these; a false detection none. Nor does a sample between two collisions in
+    a row, but that is seldom alone: a run of such samples is a ball that meets much, and stays.
     """
     found = np.zeros(len(shot.times), bool)
     for ball in shot.numbers:
@@ -38,5 +39,6 @@ def _of_path(times: NDArray[np.float64], places: NDArray[np.float64], sigma: flo
         aside = np.hypot(*(places[here] - x0 - part * (x1 - x0)).T)
         off[kind, here] = aside / (allowed + ACCELERATION * span * span)
     least = off.min(axis=0)
-    found: NDArray[np.bool_] = np.isfinite(least) & (least > 1.0)
+    strange = np.pad(np.isfinite(least) & (least > 1.0), 1)
+    found: NDArray[np.bool_] = strange[1:-1] & ~strange[:-2] & ~strange[2:]
     return found

@@ -25,6 +25,8 @@ NEAR, NEAR_METRES = 25.0, 0.025
 """The same of a whole path that the model comes so near to that it is matched at once."""
 STRAY, NO_STRAY = 6.0, 4.5
 """Standard deviations of a sample that is left out after the fit, and of those beside it at most."""
+SAMPLES_PER_STRAY = 100
+"""One more of a shot may be left out for so many."""
 MILD = 4.0
 """A shot whose root mean square is above this counts less in a stage, so that one in a wrong order moves nobody."""
 MOST_ROUNDS = 14
@@ -185,9 +187,16 @@ class StagedShot:
         square = self.root_mean_square(self.member.fit, self.member.weights) ** 2
         return (square - 1.0) * float(np.sqrt(self.counted / 2.0))
 
-    def drop_strays(self) -> bool:
-        """Leave out single samples far off a path that is otherwise followed; whether there were any."""
-        rows = np.abs(self.member.fit.residuals[: self.model.n_samples])
+    def judge_samples(self, table: Table) -> bool:
+        """Leave out single samples far off a path that is otherwise followed, and take back those that lie on it.
+
+        Where several are off, it is the path that is wrong: about collisions in the wrong order every second sample may
+        be. True if there was anything to do.
+        """
+        off = self.model.residuals(table, self.member.fit.nuisances) if self.is_whole else None
+        if off is None:
+            return False
+        rows = np.abs(off[: self.model.n_samples])
         worst = np.zeros(len(self.outliers))
         np.maximum.at(worst, self.model.sample_of_row, rows)
         strays = np.zeros(len(worst), bool)
@@ -195,11 +204,12 @@ class StagedShot:
             mine = self.model.shot.of_ball(ball)
             beside = np.pad(worst[mine], 1)
             strays[mine] = (worst[mine] > STRAY) & (np.maximum(beside[:-2], beside[2:]) < NO_STRAY)
-        if not strays.any():
-            return False
-        self.outliers |= strays
-        self._base[: self.model.n_samples][strays[self.model.sample_of_row]] = 0.0
-        return True
+        if strays.sum() > 1 + len(strays) // SAMPLES_PER_STRAY:
+            strays[:] = False
+        changed = (self.outliers & (worst < NO_STRAY)) | (strays & ~self.outliers)
+        self.outliers ^= changed
+        self._base[: self.model.n_samples] = ~self.outliers[self.model.sample_of_row]
+        return bool(changed.any())
 
     def settle(self, table: Table) -> None:
         """Full weight up to the horizon, for the last fit."""
@@ -234,18 +244,24 @@ def match(
         shot.settle(joint.table)
     joint.descend(FINE_STEPS)
     joint.solve(FINE_EVALUATIONS, FINE)
-    dropped = [shot.drop_strays() for shot in staged]
-    if any(dropped):
+    _search_orders(joint, staged, rng, observer)
+    judged = [shot.judge_samples(joint.table) for shot in staged]
+    if any(judged):
         for shot in staged:
             shot.settle(joint.table)
         joint.descend(FINE_STEPS)
         joint.solve(FINE_EVALUATIONS, FINE)
+        _search_orders(joint, staged, rng, observer)
+    return joint
+
+
+def _search_orders(joint: JointFit, staged: list[StagedShot], rng: np.random.Generator, observer: Observer) -> None:
+    """Look for better orders of events of the shots that fit worst, until there are none."""
     for number in range(MOST_RELEASES):
         caught = _caught(joint, staged)
         observer(f"{len(caught)} shots caught between two orders of events", 0.85 + 0.05 * number)
         if not caught or not _release(joint, caught, rng):
             break
-    return joint
 
 
 def _caught(joint: JointFit, staged: list[StagedShot]) -> list[StagedShot]:

@@ -57,7 +57,7 @@ def play(
     *,
     games: int = 1,
     seed: int | None = None,
-    noise: float = 1.0,
+    noise: float | NoiseModel = 1.0,
     table: Table | None = None,
     simulations: int | None = None,
     start: Game | None = None,
@@ -72,7 +72,7 @@ def play(
         agent_a, agent_b: the players of seat 0 and seat 1.
         games: how many, 1 to 1000; the break alternates.
         seed: repeats racks, first breaker, noise and the choices of shipped agents; drawn unless given.
-        noise: level, 0 to 5; 1 is the Olympiad's.
+        noise: level, 0 to 5, 1 is the Olympiad's; or a `NoiseModel` with standard deviations of its own.
         table: any `physics.Table`; the Olympiad's unless given.
         simulations: shots that each agent may simulate in a game with its `simulator`; any number unless given.
         start: where every game begins instead of a break, e.g. `view.to_game()`; the seats are exchanged in
@@ -94,7 +94,7 @@ def play(
     players = titles(_name(agent_a), _name(agent_b))
     sides = _Sides((factory_of(agent_a, seed), factory_of(agent_b, seed)), players, strict)
     watch = Watch(on_stroke=on_stroke or (lambda stroke: None), on_refusal=sides.refused)
-    rules, model = EightBall(table or Table.olympiad()), NoiseModel(noise)
+    rules, model = EightBall(table or Table.olympiad()), NoiseModel.of(noise)
     match = play_match(
         rules,
         sides.seat,

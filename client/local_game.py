@@ -371,7 +371,7 @@ def _terms(header: Header) -> GameTerms:
         players=header.players,
         rules="eight_ball",
         table=terms.rules.table.to_dict(),
-        noise=NoiseView(told=noise.told, level=noise.level if noise.told else None),
+        noise=NoiseView.of(noise, noise.told),
         budget=None if header.budget is None else BudgetView.model_validate(header.budget.to_dict()),
         dry_visits_limit=limits.dry_visits,
         replays_limit=limits.replays,

@@ -2,6 +2,7 @@
 
 from protocol.agents import AgentList, AgentRequest, AgentToken, AgentView
 from protocol.answers import MinimalAnswer, ShotsPage, StrokeAnswer
+from protocol.best_strokes import BestStroke, BestStrokes
 from protocol.clocks import ChargeView, ClockLedger, ForfeitRequest, SeatLedger
 from protocol.keys import KeyList, KeyView
 from protocol.ladder import Ladder, RungView
@@ -82,6 +83,8 @@ __all__ = [
     "BatchAnswer",
     "BatchRequest",
     "BatchRow",
+    "BestStroke",
+    "BestStrokes",
     "BudgetView",
     "CallRequest",
     "ChargeView",

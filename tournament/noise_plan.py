@@ -2,16 +2,20 @@
 
 from typing import Annotated, Any, Self
 
-from pydantic import GetJsonSchemaHandler, model_serializer, model_validator
+from pydantic import GetJsonSchemaHandler, PlainValidator, model_serializer, model_validator
 from pydantic_core import CoreSchema
 
-from referee.play.noise import LEVEL_MAX
+from referee.play.noise import LEVEL_MAX, OLYMPIAD_SIGMAS, NoiseModel, Sigmas
 from tournament.errors import InvalidSpec
 from tournament.validation import Flag, Value, items, number, value
 
 MOST_LEVELS = 1000
 
 Level = Annotated[float, number(0.0, LEVEL_MAX)]
+
+
+def _sigmas(given: Any) -> Sigmas | None:
+    return given if given is None or isinstance(given, Sigmas) else Sigmas.from_dict(given)
 
 
 @value(InvalidSpec, "noise")
@@ -23,14 +27,16 @@ class NoisePlan(Value):
             Olympiad's standard deviations, in [0, 5].
         range: lowest and highest; each pair's level is drawn uniformly from it. Then ``levels`` is empty.
         told: whether the players are told the level of their game.
+        sigmas: standard deviations at level 1, as ``referee.play.noise.Sigmas``; None for the Olympiad's.
 
     Raises:
-        InvalidSpec: no levels, both levels and a range, or a level outside [0, 5].
+        InvalidSpec: no levels, both levels and a range, a level outside [0, 5], or sigmas that cannot be.
     """
 
     levels: Annotated[tuple[Level, ...], items(0, MOST_LEVELS)] = (1.0,)
     range: Annotated[tuple[Level, Level], items(2, 2)] | None = None
     told: Flag = True
+    sigmas: Annotated[Sigmas | None, PlainValidator(_sigmas)] = None
 
     @model_validator(mode="before")
     @classmethod
@@ -60,7 +66,12 @@ class NoisePlan(Value):
     def _either(self) -> dict[str, Any]:
         """``{"levels": [1.0], "told": true}`` or ``{"range": [0.0, 5.0], "told": true}``."""
         which: dict[str, Any] = {"levels": list(self.levels)} if self.range is None else {"range": list(self.range)}
-        return which | {"told": self.told}
+        others = {} if self.sigmas is None else {"sigmas": self.sigmas.to_dict()}
+        return which | {"told": self.told} | others
+
+    def model(self, level: float) -> NoiseModel:
+        """The noise of a game at one of the levels."""
+        return NoiseModel(level, self.told, self.sigmas or OLYMPIAD_SIGMAS)
 
     def published(self) -> dict[str, Any]:
         """The same without levels that the players are not told."""

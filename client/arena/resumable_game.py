@@ -41,14 +41,14 @@ class GameTask:
 
     Attributes:
         due: which. seeds: its secrets.
-        table: parameters. told: whether players know the noise level.
+        table: parameters. noise: of this game.
         seconds: clock, None without. simulated_shots: budget, None without.
     """
 
     due: Due
     seeds: GameSeeds
     table: str | dict[str, Any]
-    told: bool
+    noise: NoiseModel
     seconds: float | None
     simulated_shots: int | None
 
@@ -216,7 +216,7 @@ class _Game:
             self._rules,
             (self._chair(0), self._chair(1)),
             task.seeds,
-            NoiseModel(due.pair.noise, task.told),
+            task.noise,
             breaker=due.breaker,
             players=due.pair.players,
             match=due.pair.id,

@@ -12,6 +12,7 @@ from client.arena.resumable_game import GameTask
 from client.arena.tasks import PairTask
 from physics.errors import shown
 from physics.table_file import ENDING, read_table
+from referee.play.noise_file import read_sigmas
 from tournament import Due, Spec, TournamentError, game_seeds
 
 
@@ -36,7 +37,7 @@ class Terms:
         """
         try:
             values = tomllib.loads(path.read_text(encoding="utf-8"))
-            terms = cls.from_dict(_with_table(values, path.parent))
+            terms = cls.from_dict(_with_noise(_with_table(values, path.parent), path.parent))
         except (OSError, ValueError, RecursionError) as error:  # no text, no TOML, a number of thousands of digits
             raise EventError(f"{path} cannot be read: {error}") from None
         except EventError as error:
@@ -79,7 +80,7 @@ class Terms:
             due=due,
             seeds=game_seeds(spec, due.pair, due.leg, due.attempt),
             table=spec.table if isinstance(spec.table, str) else dict(spec.table),
-            told=spec.noise.told,
+            noise=spec.noise.model(due.pair.noise),
             seconds=spec.seconds,
             simulated_shots=spec.simulated_shots,
         )
@@ -101,3 +102,11 @@ def _with_table(values: dict[str, Any], folder: Path) -> dict[str, Any]:
     if not isinstance(table, str) or not table.endswith(ENDING):
         return values
     return values | {"table": read_table(folder / table).to_dict()}
+
+
+def _with_noise(values: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The same with a file of standard deviations read."""
+    noise = values.get("noise")
+    if not isinstance(noise, dict) or not isinstance(file := noise.get("sigmas"), str):
+        return values
+    return values | {"noise": noise | {"sigmas": read_sigmas(folder / file).to_dict()}}

@@ -22,6 +22,9 @@ def calibrate(
     ] = "nine_foot",
     strokes: Annotated[Path | None, typer.Option(help="What the players meant, CSV: shot,v,phi,theta,a,b.")] = None,
     out: Annotated[Path | None, typer.Option(help="Write the fitted table into this TOML file.")] = None,
+    noise_out: Annotated[
+        Path | None, typer.Option(help="Write the players' standard deviations into this TOML file.")
+    ] = None,
     report: Annotated[Path | None, typer.Option(help="Write a page with pictures into this HTML file.")] = None,
     laws: Annotated[str, typer.Option(help="Cushion laws to compare by these data, e.g. han,mathavan.")] = "",
     seed: Annotated[int, typer.Option(min=0, help="Of the starts that are drawn.")] = 0,
@@ -38,8 +41,9 @@ def calibrate(
 
     start = load_table(table)
     names = [name.strip() for name in fit.split(",") if name.strip()]
-    if out is not None and out.suffix != ".toml":
-        fail(f"out = {str(out)!r}: must end in .toml", USAGE)
+    for name, file in (("out", out), ("noise-out", noise_out)):
+        if file is not None and file.suffix != ".toml":
+            fail(f"{name} = {str(file)!r}: must end in .toml", USAGE)
     try:
         observations = read_paths(data, start, strokes)
         found = run(start, observations, names, seed=seed, observer=_observer(as_json))
@@ -51,12 +55,16 @@ def calibrate(
         fail(f"{error.filename} cannot be read: {error.strerror}", USAGE)
     try:
         errors = error_model(observations.shots, found.shots)
-    except InvalidFit:
+    except InvalidFit as error:
+        if noise_out is not None:
+            fail(str(error), USAGE)
         errors = None  # too few strokes were told
     try:
         if out is not None:
             notes = (f"Fitted by pooliad calibrate to {len(found.shots)} shots of {data.name}.", *_notes(found))
             write_table(out, found.table, notes)
+        if noise_out is not None and errors is not None:
+            write_noise(noise_out, errors, data)
         if report is not None:
             title = f"Calibration of {start.name} by {data.name}"
             report.write_text(page(found, observations, title=title, laws=compared, errors=errors), encoding="utf-8")
@@ -69,6 +77,17 @@ def calibrate(
         _tell(found, compared, errors)
     if not found.is_trusted:
         raise typer.Exit(1)
+
+
+def write_noise(file: Path, errors: "ErrorModel", data: Path) -> None:
+    """The standard deviations that the data tell; the others are the Olympiad's."""
+    from referee.play.noise import SIGMA_MAX, Sigmas
+    from referee.play.noise_file import write_sigmas
+
+    told = {name: min(errors.sigmas[name], SIGMA_MAX[name]) for name in SIGMA_MAX if errors.told[name]}
+    notes = [f"Standard deviations of {errors.strokes} strokes of {data.name}, estimated by pooliad calibrate."]
+    notes += [f"{name}: not told by these data; the Olympiad's." for name in SIGMA_MAX if name not in told]
+    write_sigmas(file, Sigmas(**told), tuple(notes))
 
 
 def _observer(quiet: bool) -> "Observer":

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from tournament.ledger import Ledger
     from tournament.luck import GameLuck
 
+REPLAYS = "replays"
+"""Folder of an event's games as pages that play them."""
 Event = Annotated[Path, typer.Argument(help="Directory of the event.")]
 Executor = Annotated[str, typer.Option(help="Where games are played: processes, inline, or dask://HOST:PORT.")]
 Workers = Annotated[int | None, typer.Option(min=1, max=4096, help="Processes; one for each core unless given.")]
@@ -104,20 +106,32 @@ def report(
         bool,
         typer.Option("--luck", help="Simulate strokes with fresh noise, seconds a game, to tell luck."),
     ] = False,
+    replays: Annotated[
+        int, typer.Option(min=0, help="Games to write as pages that play them, the newest; some 40 KB each.")
+    ] = 100,
     as_json: Json = False,
 ) -> None:
-    """Write an event's report, finished or not: a page, JSON, and tables for analysis, into its directory."""
+    """Write an event's report, finished or not: a page, games to watch, JSON, and tables, into its directory."""
     import json
 
     from client.arena.directory import write_whole
     from client.arena.remote import PLACE
-    from tournament.report import csv_text, event_report, json_lines, page
+    from tournament.report import csv_text, event_report, json_lines, page, turning_points
 
     event = _opened(directory)
     played = _ledger(event).event
     at_server = (directory / PLACE).exists()  # there a seed is chosen for tests alone, and nobody is rated
     rated = not (at_server and played.spec.foreseeable)
-    data = event_report(played, _luck(directory, played.counted) if luck else None, rated=rated)
+    records = {one.record: directory / one.record for one in played.counted if (directory / one.record).is_file()}
+    moments = turning_points(records)
+    watched = dict.fromkeys([*(one.record for one in moments), *reversed(records)][: replays + len(moments)])
+    data = event_report(
+        played,
+        _luck(directory, played.counted) if luck else None,
+        rated=rated,
+        moments=moments,
+        replays=_replays(directory, {name: records[name] for name in watched} if replays else {}),
+    )
     texts = {
         "report.html": page(data),
         "report.json": json.dumps(data, ensure_ascii=False, allow_nan=False, indent=2) + "\n",
@@ -138,6 +152,21 @@ def _luck(directory: Path, results: Sequence["GameResult"]) -> "dict[tuple[str, 
 
     files = {(one.pair, one.leg): directory / one.record for one in results if one.record}
     return {key: game_luck(path) for key, path in files.items() if path.is_file()}
+
+
+def _replays(directory: Path, records: dict[str, Path]) -> dict[str, str]:
+    """Write games as pages that play them; where each is, by its record."""
+    from client.arena.directory import write_whole
+    from tournament.report import replay
+
+    (directory / REPLAYS).mkdir(exist_ok=True)
+    found = {}
+    for name, path in records.items():
+        text = replay(path)
+        if text is not None:
+            found[name] = f"{REPLAYS}/{path.stem}.html"
+            write_whole(directory / found[name], text.encode())
+    return found
 
 
 def pause(directory: Event, reason: Reason = "") -> None:

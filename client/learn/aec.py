@@ -19,7 +19,7 @@ class EightBallAEC(AECEnv[str, Vector, Vector | None]):
     """8-ball between `seat_0` and `seat_1`: observations of `observe`, actions of `act`, 1 for a win and -1 for a loss.
 
     Args:
-        noise: level, 0 to 5; 1 is the Olympiad's.
+        noise: level, 0 to 5, 1 is the Olympiad's; or a `NoiseModel` with standard deviations of its own.
         table: the Olympiad's unless given.
         start: where every game begins instead of a break.
         render_mode: `ansi`; `rgb_array`, which needs the extra `pictures`; or None.
@@ -36,7 +36,7 @@ class EightBallAEC(AECEnv[str, Vector, Vector | None]):
 
     def __init__(
         self,
-        noise: float = 1.0,
+        noise: float | NoiseModel = 1.0,
         table: Table | None = None,
         start: Game | None = None,
         render_mode: str | None = None,
@@ -44,7 +44,7 @@ class EightBallAEC(AECEnv[str, Vector, Vector | None]):
         super().__init__()
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise ValueError(f"render_mode = {render_mode!r}: must be 'ansi', 'rgb_array' or None")
-        self._rules, self._noise = referee_of(table), NoiseModel(noise)
+        self._rules, self._noise = referee_of(table), NoiseModel.of(noise)
         self._start = None if start is None else self._rules.begin_from(start)
         self._chance = np.random.default_rng()
         self.render_mode = render_mode

@@ -17,7 +17,6 @@ from physics.rack import jitter_of
 from physics.shot import FIELDS
 from referee import Action, Decision, EightBall, Game, NoiseModel, Outcome
 from referee.game import RuleId
-from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
 from referee.rules.breaks import OFFERED
 from referee.rules.calls import assign
 from referee.rules.rack import places as triangle_of
@@ -46,7 +45,7 @@ class Games:
         self._aim = self._step.aim_with_jaws if table.has_jaws else self._step.aim_straight
         self._parameters = parameters(table, rules.limits.events)
         self._limits = np.array([rules.limits.dry_visits, rules.limits.replays, rules.limits.strokes])
-        self._sigmas = noise.level * np.array([SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B])
+        self._sigmas = noise.level * noise.sigmas.row()
         self._triangle = np.array([place for row in triangle_of(table) for place in row])
         self._cue_ball = np.array([0.5 * table.width, table.head_string + table.ball_radius])
 

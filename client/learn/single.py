@@ -37,7 +37,7 @@ class EightBallEnv(gymnasium.Env[Vector, Vector]):
     def __init__(
         self,
         opponent: Policy | None = None,
-        noise: float = 1.0,
+        noise: float | NoiseModel = 1.0,
         table: Table | None = None,
         start: Game | None = None,
         render_mode: str | None = None,
@@ -47,7 +47,7 @@ class EightBallEnv(gymnasium.Env[Vector, Vector]):
             raise ValueError(f"render_mode = {render_mode!r}: must be 'ansi', 'rgb_array', 'human' or None")
         self._shaping = checked_shaping(shaping)
         self._window = None if render_mode != "human" else Window(1.0 / self.metadata["render_fps"])
-        self._rules, self._noise = referee_of(table), NoiseModel(noise)
+        self._rules, self._noise = referee_of(table), NoiseModel.of(noise)
         self._start = None if start is None else self._rules.begin_from(start)
         self._opponent = opponent
         self.render_mode = render_mode

@@ -36,7 +36,7 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         self,
         num_envs: int = 1,
         opponent: BatchPolicy | None = None,
-        noise: float = 1.0,
+        noise: float | NoiseModel = 1.0,
         table: Table | None = None,
         start: Game | None = None,
         threads: int = 1,
@@ -45,7 +45,7 @@ class EightBallVectorEnv(VectorEnv[Vector, Vector, NDArray[Any]]):
         if isinstance(num_envs, bool) or not isinstance(num_envs, int) or num_envs < 1:
             raise ValueError(f"num_envs is {num_envs!r}; it must be an integer of at least 1")
         self.num_envs, self._shaping = num_envs, checked_shaping(shaping)
-        self._rules, self._noise, self._threads = referee_of(table), NoiseModel(noise), threads
+        self._rules, self._noise, self._threads = referee_of(table), NoiseModel.of(noise), threads
         self._start = None if start is None else self._rules.begin_from(start)
         self._opponent = opponent
         self._all = np.arange(num_envs)

@@ -30,7 +30,7 @@ class MatchTerms:
         match: its id.
         games: how many, at most 1000.
         rules: the referee with table and limits.
-        noise: its level and whether the players are told.
+        noise: its level, whether the players are told, and standard deviations other than the Olympiad's.
         shared_racks: the racks follow from a secret that other matches may share.
         paired_racks: games 0 and 1, 2 and 3, … have the same racks.
         first_breaker: the seat that was told to break first; None: it is drawn.
@@ -96,7 +96,7 @@ class MatchTerms:
             "games": self.games,
             "rules": {"name": "eight_ball", "limits": self.rules.limits.to_dict()},
             "table": self.rules.table.to_dict(),
-            "noise": {"level": self.noise.level, "told": self.noise.told},
+            "noise": self.noise.to_dict(),
             "racks": {"shared": self.shared_racks, "paired": self.paired_racks},
             "first_breaker": self.first_breaker,
             "position": None if self.position is None else self.position.to_dict(),
@@ -113,7 +113,7 @@ class MatchTerms:
             match=values["match"],
             games=values["games"],
             rules=EightBall(Table.from_dict(values["table"]), Limits.from_dict(values["rules"]["limits"])),
-            noise=NoiseModel(**values["noise"]),
+            noise=NoiseModel.from_dict(values["noise"]),
             shared_racks=values["racks"]["shared"],
             paired_racks=values["racks"]["paired"],
             first_breaker=values["first_breaker"],

@@ -6,6 +6,7 @@ from fastapi import APIRouter
 
 from server.routes import (
     agents,
+    best_strokes,
     games,
     health,
     keys,
@@ -23,6 +24,7 @@ from server.routes import (
 ROUTERS: Final[tuple[APIRouter, ...]] = (
     agents.router,
     ladder.router,
+    best_strokes.router,
     matches.router,
     tournaments.router,
     turns.router,

@@ -42,6 +42,7 @@ ACTION_PROBLEMS = (*OWNED, VersionRequired, GameFinished, StaleVersion, NotYourT
 RECORD_TYPE = "application/x-ndjson"
 
 SVG = "image/svg+xml"
+PNG = "image/png"
 STANDS_ALONE = {"Content-Security-Policy": "default-src 'none'"}
 Theme = Annotated[str, Query(description="`dark` for screens, `light` for paper")]
 Upright = Annotated[
@@ -154,6 +155,18 @@ def position_picture(game_id: str, context: ContextDep, theme: Theme = "dark", u
     """To scale. `ETag` is the game's version."""
     drawn, version = pictures.position(context, game_id, theme, flag("upright", upright) is True)
     return Response(drawn, media_type=SVG, headers=STANDS_ALONE | {"ETag": f'"{version}"', "Cache-Control": "no-cache"})
+
+
+@router.get(
+    "/position.png",
+    **describe(NotFound, Unauthorized, success={200: PNG}, token=False),
+    dependencies=[ANYBODY],
+    summary="The same as PNG, 800 pixels wide",
+)
+def position_preview(game_id: str, context: ContextDep) -> Response:
+    """For link previews. 404 where the server is without the extra `pictures`."""
+    drawn, version = pictures.position_as_png(context, game_id)
+    return Response(drawn, media_type=PNG, headers=STANDS_ALONE | {"ETag": f'"{version}"', "Cache-Control": "no-cache"})
 
 
 @router.get(

@@ -17,8 +17,9 @@ from physics.table import NAMED
 from protocol import TableDescription
 from referee.game import RULES
 from server.errors import NotFound
-from server.http.dependencies import context_of
+from server.http.dependencies import Address, ContextDep, context_of
 from server.reference import reference
+from server.services.watch.previews import preview
 from tournament.luck import VALUE
 
 router = APIRouter(include_in_schema=False)
@@ -100,7 +101,25 @@ def _preloads(contents: Mapping[str, bytes]) -> bytes:
 @router.get("/")
 async def home(request: Request) -> Response:
     """The page; the one file that may be shown in a frame, by those whom the settings name."""
-    answer = _served(request, HOME)
+    return _framed(request, _served(request, HOME))
+
+
+@router.get("/games/{game_id}")
+def game(game_id: str, request: Request, context: ContextDep, address: Address) -> Response:
+    """The page at an address that can be posted: its head tells of the game, for those who show previews of links."""
+    context.limits.count_stranger(address)
+    found = preview(context, game_id)
+    if found is None:
+        answer = _served(request, HOME)
+        answer.status_code = 404 if answer.status_code == 200 else answer.status_code
+        return _framed(request, answer)
+    tags = found.tags(str(request.base_url).rstrip("/")).encode()
+    content = page_files()[HOME].content.replace(HEAD_END, tags + HEAD_END, 1)
+    return _framed(request, _answered(request, File.of(HOME, content)))
+
+
+def _framed(request: Request, answer: Response) -> Response:
+    """May be shown in a frame by those whom the settings name."""
     if named := context_of(request).settings.framing_origins:
         policy = HEADERS["Content-Security-Policy"].replace(ALONE, f"frame-ancestors {' '.join(named)}")
         answer.headers["Content-Security-Policy"] = policy

@@ -97,6 +97,7 @@ matches = Table(
     Column("table", JSON, nullable=False),
     Column("noise_level", Double, nullable=False),
     Column("noise_told", Boolean, nullable=False),
+    Column("noise_sigmas", JSON(none_as_null=True)),
     Column("allowance", BigInteger, nullable=False),
     Column("simulations", BigInteger),
     Column("lag_turn", BigInteger, nullable=False),

@@ -3,7 +3,9 @@
 import { isStriped } from "./ball_picture.js";
 import { el, fill, shape } from "./dom.js";
 
-/** A stroke after which its player's chance differs by so much went much better, or worse, than was to be expected. */
+/** @typedef {{place: number, gain: number}} Swing a stroke, and by how much it changed its player's chance */
+
+/** A stroke that changed its player's chance by so much is marked. */
 const JUMP = 0.08;
 /** Marks shown at most: the largest. */
 const MOST = 8;
@@ -18,15 +20,16 @@ function model() {
 }
 
 export class Chances {
-  /** @param {(place: number) => void} choose */
-  constructor(choose) {
+  /** @param {(place: number) => void} choose @param {(swings: Swing[]) => void} marked told which strokes are marked */
+  constructor(choose, marked) {
     this.choose = choose;
+    this.marked = marked;
     this.plot = shape("svg", { viewBox: "0 0 100 100", preserveAspectRatio: "none", role: "img" });
     this.ends = el("p", { class: "ends" });
     this.marks = el("ul", { class: "marks" });
     this.element = el("figure", { class: "chances", hidden: true }, this.ends, this.plot, this.marks,
-      el("figcaption", {}, "Chance to win before each stroke: the value that the luck report uses, of what can be counted on the table, not of how balls lie. ",
-        "▲ a stroke that went much better for its player than that let expect, ▼ much worse; how much of it was luck the report tells."));
+      el("figcaption", {}, "Chance to win before each stroke: the value that the luck report uses. It counts balls, turns and fouls, not how the balls lie. ",
+        "▲ the stroke raised its player's chance much, by skill or luck; ▼ it cost much, a mistake or bad luck. The luck report tells which."));
     /** Called of the last question alone. */
     this.turn = 0;
   }
@@ -43,11 +46,13 @@ export class Chances {
     const chances = states.map((state) => chanceOfFirst(value.weights, state, level));
     this.element.hidden = chances.length < 2;
     if (this.element.hidden) return;
-    this.draw(game, chances, here);
-    this.mark(game, chances);
+    const swings = swingsOf(game, chances);
+    this.draw(game, chances, here, swings);
+    this.mark(game, swings);
+    this.marked(swings);
   }
 
-  draw(game, chances, here) {
+  draw(game, chances, here, swings) {
     const across = (place) => (100 * place) / (chances.length - 1);
     const points = chances.map((chance, place) => `${across(place).toFixed(2)},${(100 * (1 - chance)).toFixed(2)}`);
     const now = Math.round(100 * chances[chances.length - 1]);
@@ -55,21 +60,33 @@ export class Chances {
     fill(this.plot,
       shape("polygon", { class: "area", points: `0,100 ${points.join(" ")} 100,100` }),
       shape("line", { class: "middle", x1: 0, x2: 100, y1: 50, y2: 50 }),
+      ...swings.map(({ place, gain }) => shape("line", {
+        class: gain > 0 ? "swing better" : "swing worse", x1: across(place), y1: 100 * (1 - chances[place]), x2: across(place + 1), y2: 100 * (1 - chances[place + 1]),
+      })),
       shape("polyline", { class: "line", points: points.join(" ") }),
       shape("line", { class: "here", x1: across(Math.max(0, here)), x2: across(Math.max(0, here)), y1: 0, y2: 100 }));
     fill(this.ends, el("span", {}, `${game.players[0]} ${now} %`), el("span", {}, `${game.players[1]} ${100 - now} %`));
   }
 
-  mark(game, chances) {
-    const jumps = chances.slice(1).map((chance, place) => {
-      const gain = (chance - chances[place]) * (game.entries[place].seat === 0 ? 1 : -1);
-      return { place, gain };
-    }).filter(({ place, gain }) => Math.abs(gain) >= JUMP && game.entries[place].events);
-    const shown = jumps.sort((one, two) => Math.abs(two.gain) - Math.abs(one.gain)).slice(0, MOST).sort((one, two) => one.place - two.place);
-    fill(this.marks, shown.map(({ place, gain }) => el("li", { class: gain > 0 ? "better" : "worse" },
+  mark(game, swings) {
+    fill(this.marks, swings.map(({ place, gain }) => el("li", { class: gain > 0 ? "better" : "worse" },
       el("button", { type: "button", onclick: () => this.choose(place) },
-        `${gain > 0 ? "▲" : "▼"} stroke ${place}, ${game.players[game.entries[place].seat]} ${gain > 0 ? "+" : "−"}${Math.round(100 * Math.abs(gain))} %`))));
+        `${gain > 0 ? "▲" : "▼"} stroke ${place}, ${game.players[game.entries[place].seat]} ${percent(gain)}`))));
   }
+}
+
+/** A change of a chance, with its sign. @param {number} gain */
+export function percent(gain) {
+  return `${gain > 0 ? "+" : "−"}${Math.round(100 * Math.abs(gain))} %`;
+}
+
+/** The strokes that changed the chance of their player most. @param {number[]} chances of seat 0, before each stroke and at last @returns {Swing[]} */
+function swingsOf(game, chances) {
+  const jumps = chances.slice(1).map((chance, place) => {
+    const gain = (chance - chances[place]) * (game.entries[place].seat === 0 ? 1 : -1);
+    return { place, gain };
+  }).filter(({ place, gain }) => Math.abs(gain) >= JUMP && game.entries[place].events);
+  return jumps.sort((one, two) => Math.abs(two.gain) - Math.abs(one.gain)).slice(0, MOST).sort((one, two) => one.place - two.place);
 }
 
 /**

@@ -17,13 +17,21 @@ export class GameModel {
     this.connected = null;
     /** @type {any} */
     this.result = null;
+    /** @type {[number, number] | number[] | null} games won in the match */
     this.score = [0, 0];
     /** Told, but not to be shown yet: clocks and result of what has not been seen. @type {{clocks?: any, toldAt?: number, result?: any}} */
     this.news = {};
     /** @type {Record<string, any> | null} the referee's state before the first entry */
     this.first = null;
+    /** Whether the first event of the stream came when strokes had been played: it tells how the game stands then. */
+    this.late = false;
     /** When the clocks were told, on the reader's own clock, ms. */
     this.toldAt = 0;
+  }
+
+  /** The match began from a position: so were the groups before the first stroke; in every second game the seats are exchanged. @param {{groups: [string, string] | null}} start */
+  startsFrom({ groups }) {
+    if (this.first) this.first = { ...this.first, groups: groups && this.terms.number % 2 ? [groups[1], groups[0]] : groups };
   }
 
   /** From the first event of a stream. @param {Record<string, any>} game */
@@ -32,6 +40,7 @@ export class GameModel {
     const { players, table, noise, number, games, match, balls, groups, turn } = view;
     const made = new GameModel({ id: game.id, players, table, noise, number, games, match, balls });
     made.first = { state: balls, groups, turn, phase: view.phase, cue_ball_in_hand: view.cue_ball_area?.name ?? null };
+    made.late = view.version > 1;
     made.score = view.score;
     return made;
   }
@@ -50,6 +59,7 @@ export class GameModel {
     const { game: id, players, table, noise, number, match, start } = header;
     const made = new GameModel({ id, players: players.map(String), table, noise, number, games: null, match, balls: start.state });
     made.first = start;
+    made.score = null; // that of the match, which a record does not tell
     for (const line of lines.slice(1)) {
       if (line.type === "stroke") made.entries.push(line);
       if (line.type === "end") made.result = { outcome: line.outcome, score: null };
@@ -60,6 +70,7 @@ export class GameModel {
   /** An event of the stream. @param {string} kind @param {any} data */
   take(kind, data) {
     if (kind === "stroke" || kind === "decision") {
+      if (data.entry === 0 && this.late) this.first = beforeFirst(data);
       if (data.entry === this.entries.length) this.entries.push(data);
     } else if (kind === "clocks") {
       this.news = { ...this.news, clocks: data, toldAt: performance.now() };
@@ -106,6 +117,15 @@ export class GameModel {
     if (!clock || clock.seconds_left === null) return null;
     return clock.running ? clock.seconds_left - (performance.now() - this.toldAt) / 1000 : clock.seconds_left;
   }
+}
+
+/**
+ * The referee's state before the first stroke, as far as the stroke tells it: a stroke that calls nothing is a break.
+ * @param {Entry} entry
+ */
+function beforeFirst({ action, before, game, seat }) {
+  const breaks = !action.call;
+  return { state: before ?? game.state, groups: breaks ? null : game.groups, turn: seat, phase: action.decision ? "decision" : breaks ? "break" : "play", cue_ball_in_hand: action.cue_ball ? "anywhere" : null };
 }
 
 /** @param {string} line @param {number} place */

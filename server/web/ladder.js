@@ -1,7 +1,8 @@
 /** The ladder: agents by what their rated games prove, and who of them is there. */
 
 import { get } from "./api.js";
-import { el, fill } from "./dom.js";
+import { el, facts, fill } from "./dom.js";
+import { Latest } from "./latest.js";
 
 /** Rungs that the lobby shows. */
 const SHOWN = 20;
@@ -9,12 +10,17 @@ const SHOWN = 20;
 export class Ladder {
   constructor() {
     this.body = el("div", {});
+    this.latest = new Latest();
+    /** @type {Map<string, Record<string, any>>} by agent */
+    this.rungs = new Map();
     this.element = el("section", { class: "paged", "aria-label": "Ladder" }, el("header", {}, el("h2", {}, "Ladder")), this.body);
   }
 
   async load() {
-    const found = await get("/v1/ladder").catch(() => null);
-    if (found) this.draw(found);
+    const found = await get("/v1/ladder", this.latest.ask()).catch(() => null);
+    if (!found) return;
+    this.rungs = new Map(found.rungs.map((one) => [one.agent, one]));
+    this.draw(found);
   }
 
   draw({ rungs, games }) {
@@ -36,8 +42,20 @@ export async function placeOf(agent) {
   const found = await get("/v1/ladder").catch(() => ({ rungs: [] }));
   const rung = found.rungs.find((one) => one.agent === agent);
   if (!rung) return null;
-  return el("p", { class: "facts" }, el("span", {}, `Rung ${rung.rank} of ${found.rungs.length}`), el("span", {}, `rating ${rung.ordinal.toFixed(1)} (μ ${rung.mu.toFixed(1)}, σ ${rung.sigma.toFixed(1)})`),
-    el("span", {}, rung.games === 1 ? "1 rated game" : `${rung.games} rated games`), rung.present && hereMark());
+  return facts(`Rung ${rung.rank} of ${found.rungs.length}`, `rating ${rung.ordinal.toFixed(1)} (μ ${rung.mu.toFixed(1)}, σ ${rung.sigma.toFixed(1)})`,
+    rated(rung.games), rung.present && hereMark());
+}
+
+/** @param {number} games */
+function rated(games) {
+  return games === 1 ? "1 rated game" : `${games} rated games`;
+}
+
+/** An agent in a list: its name, and what the ladder knows of it. @param {Record<string, any>} agent @param {Record<string, any>} [rung] */
+export function agentRow(agent, rung) {
+  const told = rung ? [`rating ${rung.ordinal.toFixed(1)}`, rated(rung.games)] : ["no rated game"];
+  return el("article", { class: "match" }, el("a", { href: `#/agents/${agent.id}` }, agent.name),
+    facts(...told, agent.house && el("span", { class: "mark" }, "house"), rung?.present && hereMark()));
 }
 
 function hereMark() {

@@ -75,13 +75,16 @@ function notFound(address) {
 /** @param {File | undefined} file */
 async function openRecord(file) {
   if (!file) return;
+  const mine = ++asked;
   const view = new GameView();
   try {
     const text = await file.text();
+    if (mine !== asked) return view.close();
     show(view);
     view.open(text);
   } catch (error) {
     view.close();
+    if (mine !== asked) return;
     show({ element: el("p", { class: "problem" }, error instanceof Error ? error.message : String(error)), close: () => {} });
   }
 }
@@ -128,5 +131,6 @@ document.getElementById("skip")?.addEventListener("click", (event) => {
   main.focus();
 });
 document.documentElement.classList.toggle("embedded", isEmbedded());
+if (location.pathname !== "/" && !location.hash) history.replaceState(null, "", `/#${location.pathname}`); // a link that was posted: the server tells of the game there
 theme();
 loadTables().then(route);

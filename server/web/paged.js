@@ -24,6 +24,8 @@ export class PagedList {
     /** @type {string | null} */
     this.cursor = null;
     this.pages = 0;
+    /** What the rows on show were searched by. */
+    this.wanted = "";
     this.timer = 0;
     this.latest = new Latest();
     this.search = /** @type {HTMLInputElement} */ (el("input", {
@@ -74,8 +76,14 @@ export class PagedList {
     return `${path}?${asked}`;
   }
 
+  /** The rows on show, with what has become known beside them. */
+  redraw() {
+    if (this.pages) this.draw(this.wanted);
+  }
+
   /** @param {string} wanted */
   draw(wanted) {
+    this.wanted = wanted;
     const none = wanted ? `Nothing is called “${wanted}”.` : this.empty;
     fill(this.list, this.rows.length ? this.rows.map((row) => el("li", {}, this.row(row))) : el("li", { class: "empty" }, none));
     this.more.hidden = this.cursor === null;

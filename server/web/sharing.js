@@ -2,10 +2,15 @@
 
 import { announce, el, labelled } from "./dom.js";
 
+/** The address of a game to be posted: where it is shown in small, the server tells who plays and how the balls lie. @param {string} game */
+export function linkTo(game) {
+  return `${location.origin}/games/${game}`;
+}
+
 /** @param {string} game @returns {HTMLElement[]} */
 export function sharing(game) {
-  const address = `${location.origin}/#/games/${game}`;
-  const frame = `<iframe src="${address}" title="A game of pool" width="720" height="560" style="border:0" loading="lazy"></iframe>`;
+  const address = linkTo(game);
+  const frame = `<iframe src="${location.origin}/#/games/${game}" title="A game of pool" width="720" height="560" style="border:0" loading="lazy"></iframe>`;
   const link = /** @type {HTMLInputElement} */ (el("input", { readonly: true, value: address }));
   const code = /** @type {HTMLTextAreaElement} */ (el("textarea", { readonly: true, spellcheck: "false" }));
   code.value = frame;

@@ -1,6 +1,6 @@
 /** Along the cue: the ghost ball, the line of the ball that is hit, the cue ball's own, and where they come to rest. */
 
-import { BALL_RADIUS } from "./motion.js";
+import { BALL_RADIUS, isOnTable } from "./motion.js";
 import { alongRay, circle } from "./stage.js";
 
 /** @typedef {import("./trace.js").Balls} Balls */
@@ -83,8 +83,7 @@ function addWays(lines, over, trace, struck) {
     if (points.length < 3 || Math.hypot(end.position[0] - start[0], end.position[1] - start[1]) < MOVED) continue;
     const look = ball === 0 ? { colour: CUE_BALL, width: 2, dash: DASH } : ball === struck ? { colour: STRUCK, width: 2 } : { colour: OTHERS, width: 1.2, alpha: 0.75 };
     lines.push({ points, ...look });
-    const rests = end.motion !== "pocketed" && end.motion !== "absent";
-    if (rests) over.push({ points: circle(end.position), ...look, dash: [], width: 1.5, alpha: 0.35, filled: true }, { points: circle(end.position), ...look, dash: [], width: 1.5 });
+    if (isOnTable(end)) over.push({ points: circle(end.position), ...look, dash: [], width: 1.5, alpha: 0.35, filled: true }, { points: circle(end.position), ...look, dash: [], width: 1.5 });
   }
 }
 

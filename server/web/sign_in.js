@@ -27,7 +27,7 @@ export function signInPanel(done) {
     const headers = { Authorization: `Bearer ${token.value.trim()}` };
     signIn(token.value.trim(), await call("GET", "/v1/agents/me", { headers }), keep.checked);
   });
-  return el("section", { class: "panel", "aria-label": "Sign in" }, problem,
+  return el("section", { class: "panel sign-in", "aria-label": "Sign in" }, problem,
     el("form", { onsubmit: asNew }, labelled("New here? Choose a name", name), el("button", { class: "first" }, "Begin")),
     el("form", { onsubmit: asKnown }, labelled("Or come back with your token", token), el("button", {}, "Sign in")),
     el("label", { class: "check" }, keep, "Stay signed in on this device"));

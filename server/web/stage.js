@@ -1,5 +1,6 @@
 /** One stroke on the table: played, stopped, scrubbed; the cue before it, what was meant, the ghost without noise. */
 
+import { isEmbedded } from "./api.js";
 import { el, fill } from "./dom.js";
 import { BALL_RADIUS, isOnTable } from "./motion.js";
 import { Orientations } from "./orientation.js";
@@ -80,7 +81,7 @@ export class Stage {
   fit() {
     if (!this.picture || !this.holder.clientWidth) return;
     const { clientWidth: width, clientHeight } = this.holder;
-    const height = this.fills ? clientHeight : Math.max(280, window.innerHeight * 0.66);
+    const height = this.fills ? clientHeight : isEmbedded() ? Math.max(180, window.innerHeight * 0.5) : Math.max(280, window.innerHeight * 0.66);
     if (!height) return;
     const scale = (lying) => new Projection(this.picture.table, width, height, lying).scale;
     this.picture.lying = scale(true) > scale(false);

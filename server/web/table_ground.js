@@ -14,6 +14,8 @@ const MARK = "rgb(255 255 255 / 38%)";
 /** Width of a cushion, m; where the sights are, behind the noses. */
 const CUSHION_WIDTH = 0.045;
 const SIGHTS = 0.078;
+/** Height of the letter on the frame, m. */
+const NORTH = 0.045;
 /** Pixels a metre below which details are left out. */
 const DETAILED = 150;
 
@@ -54,11 +56,27 @@ function drawFrame(context, projection) {
   if (scale < DETAILED) return;
   context.fillStyle = SIGHT;
   for (const [x, y] of sights(table)) disc(context, ...projection.place(x, y), Math.max(1.2, 0.006 * scale));
+  drawNorth(context, projection);
+}
+
+/** Pockets and cushions are called as on a map: where its north is, between two sights of the head rail. */
+function drawNorth(context, projection) {
+  const { table, scale } = projection;
+  context.font = `700 ${Math.max(9, NORTH * scale)}px system-ui, sans-serif`;
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.fillText("N", ...projection.place((3 * table.width) / 8, table.length + behindNose(table)));
+}
+
+/** How far behind the noses sights are, m. */
+function behindNose({ cushion_width, rail_width }) {
+  return rail_width === undefined ? SIGHTS : (cushion_width + rail_width) / 2;
 }
 
 /** The marks on the frame: quarters of the width, eighths of the length, none at a pocket. */
-function sights({ width, length, cushion_width, rail_width }) {
-  const behind = rail_width === undefined ? SIGHTS : (cushion_width + rail_width) / 2;
+function sights(table) {
+  const { width, length } = table;
+  const behind = behindNose(table);
   const ends = [1, 2, 3].flatMap((part) => [-behind, length + behind].map((y) => [(part * width) / 4, y]));
   const sides = [1, 2, 3, 5, 6, 7].flatMap((part) => [-behind, width + behind].map((x) => [x, (part * length) / 8]));
   return [...ends, ...sides];

@@ -2,6 +2,7 @@
 
 import { BallPictures, cssColour, isStriped } from "./ball_picture.js";
 import { box, disc } from "./brushes.js";
+import { drawPlaces } from "./jaw_ground.js";
 import { BALL_RADIUS } from "./motion.js";
 import { UPRIGHT } from "./orientation.js";
 import { Projection, pockets } from "./projection.js";
@@ -29,11 +30,13 @@ import { askShape, shapeOf } from "./tables.js";
  * @property {Cue | null} [cue]
  * @property {number | null} [calledBall] @property {number | null} [calledPocket]
  * @property {{position: [number, number], legal: boolean} | null} [held] a ball in the hand
- * @property {{x: number[], y: number[]} | null} [area] where it may be put
+ * @property {{name: string, x: number[], y: number[]} | null} [area] where it may be put
  * @property {((context: CanvasRenderingContext2D, projection: Projection) => void)} [under]
  */
 
 const CALL = "#ffd84d";
+/** How much lighter the cloth is where a ball in hand may lie. */
+const IN_HAND = 0.12;
 /** Least radius of a ball in a small picture, CSS pixels: below it colours are not told apart. */
 const LEAST_DISC = 3.2;
 /** m over the cloth, the eye: what is nearer to it is seen larger. */
@@ -58,6 +61,8 @@ export class TablePicture {
     this.ground = document.createElement("canvas");
     this.projection = new Projection(table, 1, 1, lying);
     this.density = 1;
+    /** Where a ball in hand may lie on a table with jaws, drawn once. @type {{canvas: HTMLCanvasElement, key: string}} */
+    this.places = { canvas: document.createElement("canvas"), key: "" };
     if (!shapeOf(table)) askShape(table).then((shape) => shape && this.reshape(changed));
   }
 
@@ -99,9 +104,27 @@ export class TablePicture {
     if (scene.cue) this.drawCue(scene.cue);
   }
 
-  drawArea({ x, y }) {
-    this.context.fillStyle = "rgb(255 255 255 / 12%)";
-    box(this.context, this.projection, [x[0], y[0]], [x[1], y[1]]);
+  drawArea(area) {
+    const { context, projection, table } = this;
+    const shape = shapeOf(table);
+    context.globalAlpha = IN_HAND;
+    context.fillStyle = "#ffffff";
+    if (shape) context.drawImage(this.placesWithJaws(shape, area), 0, 0, projection.width, projection.height);
+    else box(context, projection, [area.x[0], area.y[0]], [area.x[1], area.y[1]]);
+    context.globalAlpha = 1;
+  }
+
+  placesWithJaws(shape, area) {
+    const { canvas } = this.places;
+    const { width, height } = this.canvas;
+    const key = `${width} ${height} ${this.projection.lying} ${area.name}`;
+    if (this.places.key === key) return canvas;
+    this.places.key = key;
+    [canvas.width, canvas.height] = [width, height];
+    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    context.setTransform(this.density, 0, 0, this.density, 0, 0);
+    drawPlaces(context, this.projection, shape, area, area.name !== "kitchen");
+    return canvas;
   }
 
   drawCalledPocket(number) {

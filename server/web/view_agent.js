@@ -20,8 +20,10 @@ export class AgentView {
     const matches = await all(path);
     const seen = matches.find((match) => match.agents.includes(id));
     const name = seen ? seen.players[seen.agents.indexOf(id)] : id;
-    const list = new PagedList({ title: "Matches", path, member: "matches", row: matchRow, empty: "No match yet." });
-    fill(this.element, el("h1", {}, name), await placeOf(id), headToHead(matches.filter((match) => match.rated), id), list.element);
+    const list = new PagedList({ title: "Matches", path: `/v1/matches?agent=${encodeURIComponent(id)}&limit=20`, member: "matches", row: matchRow, empty: "No match yet." });
+    document.title = `${name} · Pooliad`;
+    fill(this.element, el("header", { class: "heading" }, el("h1", {}, name), await placeOf(id)),
+      el("div", { class: "halves" }, headToHead(matches.filter((match) => match.rated), id), list.element));
     await list.load();
   }
 
@@ -53,9 +55,10 @@ function headToHead(matches, id) {
     sum.lost += match.score[1 - seat];
     met.set(other, sum);
   }
-  if (!met.size) return el("p", { class: "empty" }, "It has played no rated match yet.");
-  return el("table", {}, el("caption", {}, "Head to head, in rated games"),
-    el("thead", {}, el("tr", {}, ["opponent", "won", "lost"].map((text) => el("th", { scope: "col" }, text)))),
+  if (!met.size) return el("p", { class: "empty panel" }, "It has played no rated match yet.");
+  const number = { class: "number" };
+  return el("div", { class: "panel" }, el("table", {}, el("caption", {}, "Head to head, in rated games"),
+    el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "opponent"), ["won", "lost"].map((text) => el("th", { scope: "col", ...number }, text)))),
     el("tbody", {}, [...met].map(([other, { name, won, lost }]) => el("tr", {},
-      el("th", { scope: "row" }, el("a", { href: `#/agents/${other}` }, name)), el("td", {}, won), el("td", {}, lost)))));
+      el("th", { scope: "row" }, el("a", { href: `#/agents/${other}` }, name)), el("td", number, won), el("td", number, lost))))));
 }

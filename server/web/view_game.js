@@ -37,7 +37,7 @@ export class GameView {
     this.labLink = /** @type {HTMLAnchorElement} */ (el("a", { class: "button", hidden: true }, "In the laboratory"));
     this.links = el("span", { hidden: true });
     this.share = el("details", { class: "share" });
-    this.chances = new Chances((place) => this.choose(place));
+    this.chances = new Chances((place) => this.choose(place), (swings) => this.list.markSwings(swings));
     this.mark = unratedMark();
     this.mark.hidden = true;
     this.terms = el("div", { class: "terms" });
@@ -182,6 +182,10 @@ export class GameView {
   async showMark(match) {
     const found = await get(`/v1/matches/${encodeURIComponent(match)}`).catch(() => null);
     this.mark.hidden = found === null || found.rated;
+    if (found?.start) {
+      this.model.startsFrom(found.start);
+      this.showSeen();
+    }
     this.own.hidden = !(found?.status === "running" && found.agents.includes(identity()?.id));
   }
 
@@ -209,7 +213,6 @@ export class GameView {
     const { id } = this.model.terms;
     this.links.hidden = false;
     fill(this.links, el("a", { href: `/v1/games/${id}/record`, download: `${id}.jsonl` }, "record"));
-    announce(this.board.result.textContent ?? "");
     this.finished();
     if (this.goesOn) this.followMatch();
   }
@@ -292,7 +295,9 @@ export class GameView {
     if (this.stage.ghost) return this.stage.setGhost(null);
     try {
       const body = { table: this.model.terms.table, balls: entry.before, shot: entry.action.shot, trace: true };
-      this.stage.setGhost(await call("POST", "/v1/simulate", { body }));
+      const answer = await call("POST", "/v1/simulate", { body });
+      if (this.closed || this.stage.entry !== entry) return; // another stroke is on the table by now
+      this.stage.setGhost(answer);
       announce("The stroke without noise is drawn in light blue.");
     } catch (error) {
       announce(error instanceof ProblemError ? error.message : "The server cannot be reached.");

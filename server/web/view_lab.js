@@ -8,6 +8,7 @@ import { Latest } from "./latest.js";
 import { mayLie } from "./placement.js";
 import { Preview } from "./preview.js";
 import { ShotForm } from "./shot_form.js";
+import { SideView } from "./side_view.js";
 import { addSight } from "./sight.js";
 import { asCurl, asJson, asPython, labAddress, notation, readAddress, readNotation } from "./snippets.js";
 import { Stage, cueOf } from "./stage.js";
@@ -46,29 +47,34 @@ export class LabView {
     this.spreading = new Latest();
     /** Whether somebody has written a text that is not set up yet. */
     this.typed = false;
+    this.closed = false;
   }
 
   /** @param {string} query of the address: a position and a shot, or a rack */
   async open(query) {
     this.racks = await fetch("/web/racks.json").then((answer) => answer.json()).catch(() => ({}));
+    if (this.closed) return; // somebody went on: the address is another page's by now
     this.stage = new Stage();
     this.form = new ShotForm(() => this.changed());
     this.preview = new Preview((answer, elevation, problem) => this.previewed(answer, elevation, problem));
     this.problem = el("p", { class: "refusal", role: "alert" });
     this.misread = el("p", { class: "refusal", role: "alert" });
-    this.outcome = el("p", { role: "status" });
+    this.outcome = el("p", { role: "status", class: "outcome" });
     this.events = el("ol", { class: "events" });
+    this.side = new SideView();
+    this.back = /** @type {HTMLButtonElement} */ (el("button", { type: "button", onclick: () => this.changed() }, "Back to the position"));
     this.lowest = /** @type {HTMLInputElement} */ (el("input", { type: "checkbox", checked: true, onchange: () => this.changed() }));
     fill(this.element, el("h1", {}, "Laboratory"),
       el("div", { class: "columns" },
         el("div", { class: "main-column" }, this.stage.element,
           el("div", { class: "controls" },
-            el("button", { type: "button", class: "first", onclick: () => this.play() }, "Play the shot"),
-            el("button", { type: "button", onclick: () => this.changed() }, "Back to the position"))),
-        el("div", { class: "side-column" }, this.tablePart(), this.misread, this.problem, this.outcome, this.ballPart(), this.form.element,
-          el("label", { class: "check" }, this.lowest, "cue as low as it can be"), this.spreadPart(), this.textPart(),
-          el("details", {}, el("summary", {}, "Events"), this.events))));
+            el("button", { type: "button", class: "first", onclick: () => this.play() }, "Play the shot"), this.back),
+          this.misread, this.problem, this.outcome, this.side.element),
+        el("div", { class: "side-column" }, this.tablePart(), this.ballPart(), this.form.element,
+          el("label", { class: "check" }, this.lowest, "cue as low as it can be")),
+        el("div", { class: "more" }, this.spreadPart(), this.textPart(), el("details", {}, el("summary", {}, "Events"), this.events))));
     this.stage.decorate = (scene) => this.decorate(scene);
+    this.stage.changed = () => this.showPlayed();
     handle(this.stage, this.hands());
     const misread = this.setUp(query);
     this.changed();
@@ -214,9 +220,15 @@ export class LabView {
     this.spreading.withdraw();
     for (const said of [this.misread, this.problem, this.fallen, this.unread]) fill(said);
     this.stage.rest(this.balls);
+    this.outcome.setAttribute("aria-busy", "true"); // it is that of the shot before
     this.preview.ask(this.table, this.balls, this.form.shot, this.lowest.checked);
     this.writeText();
     this.writeAddress();
+  }
+
+  /** What plays a stroke on the table is there while one is. */
+  showPlayed() {
+    this.stage.replay.hidden = this.back.disabled = !this.stage.entry;
   }
 
   async share() {
@@ -233,8 +245,10 @@ export class LabView {
     }
     this.answer = answer;
     this.paths = answer?.events ? new Trace(this.table, this.balls, answer.events, answer.duration) : null;
+    this.side.show(this.paths);
     const fallen = answer?.events?.filter((event) => event.kind === "pocket_collision").map(describeEvent) ?? [];
     if (answer?.facts.miscue) fallen.unshift("miscue: the tip slips off the cue ball");
+    this.outcome.removeAttribute("aria-busy");
     fill(this.outcome, answer ? [`${answer.n_events} events in ${answer.duration.toFixed(2)} s`, ...fallen].join("; ") : "");
     fill(this.events, (answer?.events ?? []).slice(0, 400).map((event) => el("li", { value: event.index }, `${event.time.toFixed(4)} s  ${describeEvent(event)}`)));
     this.stage.redraw();
@@ -335,6 +349,7 @@ export class LabView {
   }
 
   close() {
+    this.closed = true;
     clearTimeout(this.timer);
     this.preview?.cancel();
     this.spreading.withdraw();

@@ -1,8 +1,9 @@
 /** The lobby: live games in small, what comes next, matches, agents. */
 
 import { get, identity } from "./api.js";
+import { BestStrokes } from "./best_strokes.js";
 import { el } from "./dom.js";
-import { Ladder } from "./ladder.js";
+import { Ladder, agentRow } from "./ladder.js";
 import { LastGames } from "./last_games.js";
 import { watchGames } from "./live.js";
 import { matchRow } from "./match_row.js";
@@ -21,12 +22,13 @@ export class LobbyView {
     this.own = el("p", { class: "own", hidden: true }, "A game of yours is on. ", el("a", { class: "button", href: "#/play" }, "Back to the table"));
     this.ladder = new Ladder();
     this.last = new LastGames();
+    this.best = new BestStrokes();
     this.next = new PagedList({
-      title: "Next", path: "/v1/matches?status=challenged", member: "matches",
+      title: "Challenges", path: "/v1/matches?status=challenged", member: "matches",
       row: matchRow, empty: "No challenge is open.",
     });
     this.matches = new PagedList({
-      title: "Matches", path: "/v1/matches?limit=20", member: "matches",
+      title: "Matches", path: "/v1/matches?limit=10", member: "matches",
       row: matchRow, empty: "No match yet.",
     });
     this.tournaments = new PagedList({
@@ -34,16 +36,16 @@ export class LobbyView {
       row: tournamentRow, empty: "No tournament yet.",
     });
     this.agents = new PagedList({
-      title: "Agents", path: "/v1/agents?limit=50", member: "agents",
-      row: (agent) => el("article", { class: "match" }, el("a", { href: `#/agents/${agent.id}` }, agent.name),
-        agent.house && el("span", { class: "mark" }, "house")),
+      title: "Agents", path: "/v1/agents?limit=20", member: "agents",
+      row: (agent) => agentRow(agent, this.ladder.rungs.get(agent.id)),
       empty: "No agent yet.",
     });
     this.file = /** @type {HTMLInputElement} */ (el("input", { type: "file", accept: ".jsonl,.json,.ndjson", id: "record-file" }));
     this.element = el("div", { class: "lobby" },
       el("h1", {}, "Lobby"), this.own,
-      el("section", { "aria-label": "Live games" }, el("h2", { class: "live" }, "Live"), this.none, this.gallery.element), this.last.element,
-      el("div", { class: "lists" }, this.matches.element, this.tournaments.element, this.ladder.element, this.agents.element, this.next.element),
+      el("section", { "aria-label": "Live games" }, el("h2", { class: "live" }, "Live"), this.none, this.gallery.element), this.last.element, this.best.element,
+      el("div", { class: "lists" }, el("div", {}, this.matches.element), el("div", {}, this.tournaments.element, this.next.element),
+        el("div", {}, this.ladder.element, this.agents.element)),
       el("section", { class: "drop", "aria-label": "Record file" },
         el("label", { for: "record-file" }, "Look at a record: drop the file anywhere on this page, or choose it"), this.file));
     /** @type {string[] | null} the games that run; null until the server has said it */
@@ -53,11 +55,17 @@ export class LobbyView {
   }
 
   async open() {
-    await Promise.all([this.next.load(), this.matches.load(), this.tournaments.load(), this.agents.load(), this.ladder.load(), this.last.load()]);
+    await Promise.all([this.next.load(), this.matches.load(), this.tournaments.load(), this.loadAgents(), this.last.load(), this.best.load()]);
     while (!this.closed) {
       if (!document.hidden) await this.refresh();
       await new Promise((go) => setTimeout(go, AGAIN));
     }
+  }
+
+  /** The ladder first: the list of agents has its ratings. */
+  async loadAgents() {
+    await this.ladder.load();
+    await this.agents.load();
   }
 
   /** The games that run now; one stream tells of all of them. */
@@ -76,7 +84,8 @@ export class LobbyView {
     this.stop = games.length ? watchGames(games, (game, kind, data) => this.gallery.take(game, kind, data)) : () => {};
     if (first) return;
     for (const list of [this.next, this.matches, this.tournaments]) list.refresh();
-    for (const part of [this.ladder, this.last]) part.load();
+    for (const part of [this.last, this.best]) part.load();
+    this.ladder.load().then(() => this.agents.redraw());
   }
 
   close() {

@@ -4,6 +4,7 @@ import { ProblemError, call, command, get, identity, newKey, newSeed, signOut, t
 import { Aiming } from "./aiming.js";
 import { announce, el, fill, labelled } from "./dom.js";
 import { Latest } from "./latest.js";
+import { linkTo } from "./sharing.js";
 import { signInPanel, tokenPanel } from "./sign_in.js";
 import { describeTable, tableNames, tableTitle } from "./tables.js";
 import { GameView } from "./view_game.js";
@@ -40,9 +41,11 @@ export class PlayView {
 
   /** @param {string | null} game the address of a game: its players go on with it, everybody else watches */
   async open(game = null) {
+    if (this.closed) return null;
     const me = identity();
     if (game) {
       const match = me && (await matchOf(game));
+      if (this.closed) return null;
       if (match?.status !== "running" || !match.agents.includes(me.id)) return location.replace(`#/games/${game}`);
       return this.enter(match.id);
     }
@@ -135,12 +138,13 @@ export class PlayView {
 
   /** Wait for the match's game, then play it. @param {string} id */
   async enter(id) {
-    if (this.match) return;
+    if (this.match || this.closed) return;
     this.match = id;
     this.choice.withdraw();
     fill(this.top, el("h1", {}, "Play"), el("p", { role: "status" }, "Waiting for the opponent …"));
     while (!this.closed) {
       const match = await get(`/v1/matches/${id}`).catch(() => null);
+      if (this.closed) return;
       if (match?.status === "aborted") return this.over("The match was called off.");
       const game = match?.played.at(-1);
       if (game) {
@@ -159,7 +163,7 @@ export class PlayView {
     this.aiming = new Aiming(this.game.stage, (action) => this.act(action));
     this.game.idle = () => this.prepare();
     this.game.ended = () => this.turn && this.dropTurn();
-    const concede = el("button", { type: "button", onclick: () => this.concede(concede) }, "Concede");
+    const concede = this.conceding = el("button", { type: "button", onclick: () => this.concede(concede) }, "Concede");
     this.waiting = el("p", { class: "waiting", role: "status" }, "Waiting for the turn …");
     this.dock = el("div", { class: "dock" }, this.waiting, this.aiming.element);
     this.game.sitDown([this.aiming.said, this.aiming.spin.element], this.dock, el("div", { class: "choices" }, concede,
@@ -269,8 +273,11 @@ export class PlayView {
     this.turn = null;
     this.aiming?.end();
     const again = el("button", { type: "button", class: "first", onclick: () => this.again() }, "Play again");
-    if (this.game) fill(this.dock, el("p", { class: "waiting" }, "The match is over."), again);
-    else fill(this.top, el("h1", {}, "Play"), said && el("p", {}, said), again);
+    if (this.game) {
+      this.conceding.hidden = true;
+      fill(this.dock, el("p", { class: "waiting" }, "The match is over."), again);
+      scrollTo(0, 0); // to the result, from whatever was looked at below
+    } else fill(this.top, el("h1", {}, "Play"), said && el("p", {}, said), again);
   }
 
   again() {
@@ -305,8 +312,8 @@ async function matchOf(game) {
 
 /** What can be sent to anybody. @param {string} game */
 async function copyAddress(game) {
-  await navigator.clipboard?.writeText(`${location.origin}/#/games/${game}`).catch(() => {});
-  announce(`Copied: ${location.origin}/#/games/${game}`);
+  await navigator.clipboard?.writeText(linkTo(game)).catch(() => {});
+  announce(`Copied: ${linkTo(game)}`);
 }
 
 /** The agent of exactly this name. @param {string} name */

@@ -1,6 +1,8 @@
 /** What happened, in words. */
 
 export const POCKETS = ["south-west", "west", "north-west", "north-east", "east", "south-east"];
+/** As the referee's sentences have them, in the same order. */
+const SHORT = ["SW", "W", "NW", "NE", "E", "SE"];
 const CUSHIONS = ["west", "east", "south", "north"];
 const REASONS = {
   eight_made: "the 8 made as called",
@@ -25,9 +27,10 @@ function forget() {
   return {};
 }
 
-/** The referee's sentence with the players' names. @param {string} words @param {string[]} players */
+/** The referee's sentence with the players' names, and pockets called as everywhere on the page. @param {string} words @param {string[]} players */
 export function named(words, players) {
-  return words.replace(/\b[Pp]layer ([01])\b/g, (_, seat) => players[Number(seat)]);
+  const called = words.replace(/\bpocket ([NS]?[WE])\b/g, (_, short) => `the ${POCKETS[SHORT.indexOf(short)]} pocket`);
+  return called.replace(/\b[Pp]layer ([01])\b/g, (_, seat) => players[Number(seat)]);
 }
 
 /** @param {number} ball */
@@ -73,7 +76,7 @@ export function describeAction(entry) {
 export function describeShot({ v, phi, theta, a, b }) {
   const side = Math.abs(a) < 0.05 ? "" : `, ${Math.abs(a).toFixed(1)} mm ${a > 0 ? "right" : "left"}`;
   const height = Math.abs(b) < 0.05 ? "" : `, ${Math.abs(b).toFixed(1)} mm ${b > 0 ? "high" : "low"}`;
-  return `${v.toFixed(2)} m/s at ${phi.toFixed(1)}°, cue raised ${theta.toFixed(1)}°${side}${height}`;
+  return `${v.toFixed(2)} m/s at ${(((phi % 360) + 360) % 360).toFixed(1)}°, cue raised ${theta.toFixed(1)}°${side}${height}`;
 }
 
 /** @param {{winner: number | null, reason: string}} outcome @param {string[]} players */
@@ -93,4 +96,11 @@ export function minutes(seconds) {
   if (seconds === null) return "no clock";
   const left = Math.max(0, seconds);
   return `${Math.floor(left / 60)}:${String(Math.floor(left % 60)).padStart(2, "0")}`;
+}
+
+/** So many seconds, as people say it. @param {number | null} seconds */
+export function duration(seconds) {
+  if (seconds === null) return "any time";
+  const whole = seconds >= 120 && seconds % 60 === 0;
+  return whole ? `${seconds / 60} minutes` : `${seconds} s`;
 }

@@ -212,6 +212,18 @@ def new_page(browser: Any, watched: Watched) -> Iterator[Callable[..., Any]]:
 
 
 @pytest.fixture
+def foretold() -> Callable[[Any], str]:
+    """Waits until the laboratory shows what the shot does that is set now; what it says of it."""
+
+    def wait(page: Any) -> str:
+        shown = page.locator(".lab .outcome:not([aria-busy])", has_text="events in")
+        shown.wait_for()
+        return str(shown.inner_text())
+
+    return wait
+
+
+@pytest.fixture
 def page(new_page: Callable[..., Any]) -> Any:
     """A page on a screen of middling size."""
     return new_page()

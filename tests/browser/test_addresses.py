@@ -21,7 +21,7 @@ def written(page: Page) -> dict[str, Any]:
     return found
 
 
-def test_the_laboratory_needs_no_name_and_its_address_is_its_state(new_page, server):
+def test_the_laboratory_needs_no_name_and_its_address_is_its_state(new_page, server, foretold):
     """From a rack by a link, a shot set, and the address opened by somebody else: the same position and shot."""
     page = new_page()
     page.goto(f"{server.url}/#/lab?table=nine_foot&rack=3")
@@ -30,12 +30,11 @@ def test_the_laboratory_needs_no_name_and_its_address_is_its_state(new_page, ser
     assert TableState.from_dict(written(page)["balls"]) == rack
     page.get_by_label("Direction, degrees", exact=True).fill("268.5")
     page.get_by_label("Direction, degrees", exact=True).press("Tab")
-    page.wait_for_url(re.compile(r"shot=9,268\.5,"))
-    page.get_by_text("events in").wait_for()
-    page.wait_for_timeout(600)  # the address follows a moment later
+    foretold(page)
     there, other = written(page), new_page()
+    page.wait_for_url(lambda url: f"shot=9,268.5,{there['shot']['theta']}," in url)  # it follows a moment later
     other.goto(page.url)
-    other.get_by_text("events in").wait_for()
+    foretold(other)
     assert written(other) == there
     assert there["table"] == "nine_foot"
     assert other.get_by_role("checkbox", name="cue as low as it can be").is_checked()
@@ -96,6 +95,18 @@ def test_a_player_leaves_comes_back_and_is_found(new_page, server):
     other.wait_for_url(address.replace("/play/", "/games/"))
     other.get_by_role("heading", level=1).filter(has_text=name).wait_for()
     assert not other.get_by_role("link", name="To the table").is_visible()
+
+
+def test_a_link_that_was_posted_leads_to_its_game(page, server):
+    """The address that the server tells of where it is posted (`test_pictures`), and that *Share* gives."""
+    match = server.match(names=("posted ann", "posted bob"))
+    page.goto(f"{server.url}/games/{match.game}")
+    page.get_by_role("heading", name="posted ann – posted bob").wait_for()
+    assert page.url == f"{server.url}/#/games/{match.game}"
+    page.get_by_text("Share and embed").click()
+    assert page.get_by_label("Link", exact=True).input_value() == f"{server.url}/games/{match.game}"
+    page.get_by_role("link", name="Lobby").click()
+    page.get_by_role("heading", name="Lobby").wait_for()
 
 
 def test_who_is_not_to_be_remembered_is_not(new_page, server):

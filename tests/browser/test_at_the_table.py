@@ -16,8 +16,17 @@ START: dict[str, Any] = {
     "groups": ["solids", "stripes"],
 }
 """Ball 2 stands straight before the cue ball."""
-BOXES = """() => Object.fromEntries([["table", ".table canvas"], ["shoot", "button.shoot"], ["dock", ".dock"]].map(
-  ([name, which]) => [name, document.querySelector(which).getBoundingClientRect().toJSON()]))"""
+BOXES = """async (width) => {
+  const boxes = () => Object.fromEntries([["table", ".table canvas"], ["shoot", "button.shoot"], ["dock", ".dock"]].map(
+    ([name, which]) => [name, document.querySelector(which).getBoundingClientRect().toJSON()]));
+  const frame = () => new Promise((go) => requestAnimationFrame(go));
+  while (innerWidth !== width) await frame();
+  for (let same = 0, last = ""; same < 3; last = JSON.stringify(boxes())) { // laid out anew, however long that takes
+    await frame();
+    same = JSON.stringify(boxes()) === last ? same + 1 : 0;
+  }
+  return boxes();
+}"""
 FRAME, WIDTH, LENGTH = 0.11, 1.116, 2.236
 
 
@@ -36,6 +45,8 @@ def seated(page: Page, server: Any, **terms: Any) -> Match:
     assert made.status_code == 201, made.text
     page.goto(f"{server.url}/#/play")
     page.get_by_role("region", name="Your turn").wait_for()
+    page.locator(".presence", has_text="disconnected").wait_for()  # what comes to the board later could move the table
+    page.locator(".clock.running").wait_for()
     return Match(server, made.json(), [me["token"], other["token"]])
 
 
@@ -68,8 +79,7 @@ def test_table_and_shoot_are_on_one_screen_at_every_size(new_page, server, in_ha
     seated(page, server, **({} if in_hand else {"start": START}))
     for width, height in SIZES:
         page.set_viewport_size({"width": width, "height": height})
-        page.wait_for_timeout(150)
-        boxes = page.evaluate(BOXES)
+        boxes = page.evaluate(BOXES, width)
         assert page.evaluate("[scrollX, scrollY]") == [0, 0]
         assert page.evaluate("document.documentElement.scrollWidth") <= width
         for name in ("table", "shoot"):

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 from support.axe import violations
-from support.play_along import Match, next_turn, play_on
+from support.play_along import Match, act, next_turn, play_on
 
 from referee.game import Game
 from tournament.luck import VALUE
@@ -72,6 +72,62 @@ def test_chances_are_those_of_the_luck_report(page, server):
     assert violations(page) == []
 
 
+def test_the_curve_begins_where_the_game_did(page, server):
+    """Seen: opened later, it began with how the game stood by then. From a position, in a second game."""
+    start = {
+        "balls": {"0": [0.5, 1.7], "3": [0.4, 0.6], "8": [0.9, 0.4], "11": [0.2, 0.2]},
+        "groups": ["solids", "stripes"],
+    }
+    match = server.match(start=start, games=2, noise={"level": 0.0})
+    for _ in range(2):
+        turn = next_turn(match)
+        assert turn is not None
+        first = VALUE(turn[1].to_game(), 0, 0.0)
+        act(match, *turn)
+        page.goto(f"{server.url}/#/games/{match.game}")
+        line = page.locator(".chances .line")
+        line.wait_for(state="attached")
+        end = float(line.get_attribute("points").split()[0].partition(",")[2])
+        assert end == pytest.approx(100 * (1 - first), abs=0.01)
+        concede(match)
+
+
+def test_strokes_that_changed_the_chances_are_marked_wherever_they_are_listed(page, server):
+    """The curve, its buttons and the list of strokes tell the same change; the lobby has the best one's picture."""
+    match = server.match(noise={"level": 0.0}, seed="7" * 64)
+    game = match.game
+    play_on(match, 40)
+    if match.server.http.get(f"/v1/matches/{match.id}").json()["status"] == "running":
+        concede(match)
+    lines = server.http.get(f"/v1/games/{game}/record").text.splitlines()
+    entries = [one for one in map(json.loads, lines) if "entry" in one]
+    states = [json.loads(lines[0])["start"], *(one["game"] for one in entries)]
+    chances = [VALUE(Game.from_dict(state), 0, 0.0) for state in states]
+    gains = {
+        place: (chances[place + 1] - chances[place]) * (1 if entries[place]["seat"] == 0 else -1)
+        for place in range(len(entries))
+        if "decision" not in entries[place]["action"]
+    }
+    marked = sorted(gains, key=lambda place: -abs(gains[place]))[:8]
+    marked = sorted(place for place in marked if abs(gains[place]) >= 0.08)
+    assert marked, "seed 7: somebody pots, and somebody fouls"
+    page.goto(f"{server.url}/#/games/{game}")
+    buttons = page.locator(".chances .marks button")
+    buttons.nth(len(marked) - 1).wait_for()
+    told = [f"{'+' if gains[place] > 0 else '−'}{round(100 * abs(gains[place]))} %" for place in marked]
+    assert [text.rpartition(" ")[0].split()[2].strip(",") for text in buttons.all_inner_texts()] == [*map(str, marked)]
+    assert [" ".join(text.split()[-2:]) for text in buttons.all_inner_texts()] == told
+    listed = page.locator("ol.strokes li").filter(has=page.locator("[title^='Change of']"))
+    assert listed.count() == len(marked)
+    assert page.locator(".chances .swing").count() == len(marked)
+    ends = {place for place in range(len(entries)) if entries[place]["game"]["outcome"] is not None}
+    made = [place for place in gains if place and entries[place]["ruling"]["made"] and place not in ends]
+    best = max(made, key=lambda place: gains[place])
+    (stroke,) = [one for one in server.http.get("/v1/best-strokes").json()["strokes"] if one["game"] == game]
+    assert stroke["number"] == best
+    assert stroke["after"] - stroke["before"] == pytest.approx(gains[best], abs=1e-12)
+
+
 def test_a_game_is_shown_in_a_frame_of_those_who_may(new_page, own_server_in_frames, embedder, watched):
     """And acts for nobody there: a page around it could lead clicks astray."""
     server, (origin, folder) = own_server_in_frames, embedder
@@ -89,6 +145,8 @@ def test_a_game_is_shown_in_a_frame_of_those_who_may(new_page, own_server_in_fra
     inside.get_by_role("heading", level=1).filter(has_text="framed ann").wait_for()
     assert inside.locator(".table canvas").is_visible()
     assert not inside.locator("header.bar").is_visible()
+    table, around_it = inside.locator(".table canvas").bounding_box(), around.locator("iframe").bounding_box()
+    assert table["y"] + table["height"] <= around_it["y"] + around_it["height"], "seen without scrolling"
     assert inside.locator("body").evaluate("async () => (await import('/web/api.js')).token()") is None
     policy = server.http.get("/").headers["content-security-policy"]
     assert f"frame-ancestors {origin};" in policy
@@ -118,6 +176,10 @@ def test_a_lobby_shows_last_games_and_the_ladder_when_nothing_is_played(new_page
         assert rows.nth(place).get_by_role("rowheader").inner_text().startswith(one["name"])
         assert f"{one['ordinal']:.1f}" in rows.nth(place).inner_text()
     assert violations(page) == []
+    agents = page.get_by_role("region", name="Agents").get_by_role("listitem")
+    first = agents.filter(has_text=rungs[0]["name"])
+    first.get_by_text(f"rating {rungs[0]['ordinal']:.1f}").wait_for()
+    first.get_by_text("1 rated game").wait_for()
     ladder.get_by_role("link", name=rungs[0]["name"]).click()
     page.get_by_text("Rung 1 of 2").wait_for()
     page.get_by_text("1 rated game", exact=True).wait_for()

@@ -7,7 +7,7 @@ from playwright.sync_api import Page
 from support.axe import violations
 from support.play_along import play_on
 
-VIEWS = ("lobby", "game", "match", "agent", "play", "lab")
+VIEWS = ("lobby", "game", "match", "agent", "tournament", "play", "lab")
 
 
 @pytest.fixture(scope="module")
@@ -17,8 +17,19 @@ def match(server):
     return made
 
 
-def addresses(match: Any) -> dict[str, str]:
+@pytest.fixture(scope="module")
+def event(server):
+    """A tournament under way; its id."""
+    agents = {name: server.register()["agent"]["id"] for name in ("ann", "bob")}
+    terms = {"name": "Cup", "entrants": list(agents), "pairs": 1, "seed": 5}
+    made = server.send("POST", "/v1/tournaments", json={"terms": terms, "agents": agents}).json()
+    assert server.send("POST", f"/v1/tournaments/{made['id']}/start").status_code == 200
+    return made["id"]
+
+
+def addresses(match: Any, event: str) -> dict[str, str]:
     return {
+        "tournament": f"#/tournaments/{event}",
         "lobby": "#/",
         "game": f"#/games/{match.game}",
         "match": f"#/matches/{match.id}",
@@ -47,16 +58,22 @@ def take_a_turn(page: Page, server: Any, agent: str) -> None:
     page.get_by_role("region", name="Your turn").wait_for()
 
 
-def show(page: Page, server: Any, match: Any, view: str) -> None:
-    page.goto(f"{server.url}/{addresses(match)[view]}")
+def show(page: Page, server: Any, match: Any, event: str, view: str) -> None:
+    page.goto(f"{server.url}/{addresses(match, event)[view]}")
     page.locator("main h1").wait_for()
-    ready = {"lobby": "a.thumbnail .names", "game": "ul.rules li", "lab": ".shot-form", "play": "section.panel"}
+    ready = {
+        "lobby": "a.thumbnail .names",
+        "game": "ul.rules li",
+        "lab": ".shot-form",
+        "play": "section.panel",
+        "tournament": "tbody tr",
+    }
     if view in ready:
         page.locator(ready[view]).first.wait_for(state="attached")
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_nothing(new_page, server, match, scheme):
+def test_axe_finds_nothing(new_page, server, match, event, scheme):
     page = new_page(color_scheme=scheme)
     found = {}
     page.goto(f"{server.url}/#/play")
@@ -64,25 +81,33 @@ def test_axe_finds_nothing(new_page, server, match, scheme):
     found["signed out"] = violations(page)
     agent = sign_in(page, server)
     for view in VIEWS:
-        show(page, server, match, view)
+        show(page, server, match, event, view)
         if view == "game":
             page.locator("summary", has_text="Events").click()
         found[view] = violations(page)
+        if view == "game":
+            page.evaluate("document.documentElement.classList.add('embedded')")
+            found["embedded"] = violations(page)
+            page.evaluate("document.documentElement.classList.remove('embedded')")
     take_a_turn(page, server, agent)
     found["turn"] = violations(page)
+    page.get_by_role("button", name="Concede").click()
+    page.get_by_role("button", name="Really concede?").click()
+    page.get_by_role("button", name="Play again").wait_for()
+    found["over"] = violations(page)
     assert [(view, *faults) for view, faults in found.items() if faults] == []
     page.evaluate("document.querySelector('main').append(document.createElement('button'))")
     assert any(fault.startswith("button-name") for fault in violations(page)), "axe looks at nothing"
 
 
-def test_every_view_fits_a_phone(new_page, server, match):
+def test_every_view_fits_a_phone(new_page, server, match, event):
     page = new_page(390, 844, has_touch=True, is_mobile=True)
     agent = sign_in(page, server)
     for view in (*VIEWS, "turn"):
         if view == "turn":
             take_a_turn(page, server, agent)
         else:
-            show(page, server, match, view)
+            show(page, server, match, event, view)
         page.wait_for_timeout(200)
         assert page.evaluate("document.documentElement.scrollWidth") <= 390, view
         small = page.evaluate(SMALL)

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from playwright.sync_api import Page
+from support.held_back import HeldBack
 from support.play_along import Match, act
 from support.players import Potter
 
@@ -75,26 +76,30 @@ def human(new_page: Any, server: Any) -> Hand:
 
 CHOOSE_AGAIN = """async ([path]) => {
     const { PlayView } = await import(path);
-    const asked = [];
+    const [later, asked, pauses] = [window.setTimeout.bind(window), [], []];
+    const until = async (met) => { while (!met()) await new Promise((go) => later(go, 5)); };
+    const answered = async (about) => until(() => asked.filter((one) => one.includes(about)).length === 3);
+    window.setTimeout = (go, time) => (time === 2000 ? pauses.push(go) : later(go, time));
     window.fetch = async (address) => {
         asked.push(address);
         return new Response('{"matches": [], "agents": []}');
     };
     const view = new PlayView();
     for (let time = 0; time < 3; time++) view.chooseOpponent({ id: "me", name: "me" });
-    await new Promise((go) => setTimeout(go, 3000));
+    await answered("status=challenged");
+    await until(() => pauses.length === 3);
+    for (const go of pauses.splice(0)) go(); // the time between two looks has passed, in the order of the choices
+    await until(() => pauses.length > 0);
     view.close();
     return asked.filter((address) => address.includes("status=challenged")).length;
 }"""
 
 
-def test_only_the_choice_on_show_looks_out_for_challenges(new_page, server):
+def test_only_the_choice_on_show_looks_out_for_challenges(page, server):
     """Seen: the loop of one before went on, and entered another match while a result was shown."""
-    page = new_page()
-    page.goto(f"{server.url}/#/lab")
-    page.get_by_text("events in").wait_for()  # what the laboratory asks is answered before nobody answers any more
-    path = page.evaluate("document.querySelector('script[type=module]').src").rpartition("/")[0] + "/view_play.js"
-    assert page.evaluate(CHOOSE_AGAIN, [path]) == 3 + 1
+    page.goto(f"{server.url}/#/nowhere")  # no view that asks for anything while nobody answers
+    page.get_by_text("There is nothing at").wait_for()
+    assert page.evaluate(CHOOSE_AGAIN, [f"{server.url}/web/view_play.js"]) == 3 + 1
 
 
 def sat_down(page: Page, server: Any) -> Hand:
@@ -359,25 +364,6 @@ def test_the_laboratory_simulates_spreads_and_writes(human):
     page.get_by_text("is no ball").wait_for()
 
 
-class HeldBack:
-    """Requests of a page that reach the server when the test says so."""
-
-    def __init__(self, page: Page, pattern: str) -> None:
-        self.held: list[Any] | None = []
-        page.route(pattern, self._come)
-
-    def _come(self, route: Any) -> None:
-        if self.held is None:
-            route.continue_()
-        else:
-            self.held.append(route)
-
-    def let_go(self) -> None:
-        held, self.held = self.held, None
-        for route in held or ():
-            route.continue_()
-
-
 @pytest.mark.parametrize("late", ["before it is read", "after it was read"])
 def test_a_late_preview_leaves_text_and_error_to_who_writes_a_notation(human, late):
     """Seen: it wrote the position over what was typed, and wiped the reason why that is none."""
@@ -399,35 +385,34 @@ def test_a_late_preview_leaves_text_and_error_to_who_writes_a_notation(human, la
     assert page.get_by_label("Text", exact=True).input_value() == "3:x"
 
 
-def test_the_laboratory_shows_no_spread_of_an_earlier_shot(human):
+def test_the_laboratory_shows_no_spread_of_an_earlier_shot(human, foretold):
     """Seen: one that was asked for before a change was shown after it; choosing a ball showed one from before it."""
     page = human.page
     page.goto(f"{human.server.url}/#/lab")
-    page.get_by_text("events in").wait_for()
+    foretold(page)
     spread, told = (
         page.get_by_role("button", name="Play it 200 times"),
         page.get_by_text(re.compile("Pocketed|No ball")),
     )
     spread.click()
     told.wait_for()
-    shoot_faster(human)
+    shoot_faster(human, foretold)
     before = picture(page)
     page.get_by_label("Ends of").select_option("0")
     assert picture(page) == before
     answer = HeldBack(page, "**/v1/simulate/batch")
     with page.expect_request("**/v1/simulate/batch"):
         spread.click()
-    shoot_faster(human)
+    shoot_faster(human, foretold)
     answer.let_go()
     page.wait_for_timeout(1000)
     assert not told.is_visible()
 
 
-def shoot_faster(hand: Hand) -> None:
+def shoot_faster(hand: Hand, foretold: Any) -> None:
     """Another speed, and the preview of it."""
-    before = hand.page.get_by_text("events in").inner_text()
     hand.fill("Cue speed, m/s", float(hand.page.get_by_label("Cue speed, m/s", exact=True).input_value()) + 0.5)
-    hand.page.get_by_text("events in").filter(has_not_text=before).wait_for()
+    foretold(hand.page)
 
 
 def picture(page: Page) -> str:

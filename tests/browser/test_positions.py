@@ -7,12 +7,11 @@ from typing import Any
 
 import pytest
 from playwright.sync_api import Page
-from support.players import Potter
+from support.axe import violations
+from support.short_games import short_game
 
 import physics
-from client.local_game import PlayedGame, play_game
-from referee import Action, EightBall, MatchSeed, NoiseModel
-from referee.game import Decision
+from client.local_game import PlayedGame
 
 TOLERANCE = 1e-9
 AT = """async ([table, entry, times]) => {
@@ -23,25 +22,6 @@ AT = """async ([table, entry, times]) => {
 
 
 SLIDE = "(slider, time) => { slider.value = time; slider.dispatchEvent(new Event('input')); }"
-
-
-def short_game(seed: int, actions: int, table: physics.Table | None = None) -> PlayedGame:
-    """A break and some strokes after it, then a concession; every tenth game on the historical table unless told."""
-    left = [actions]
-
-    def player(name):
-        potter = Potter(name)
-
-        def choose(view):
-            left[0] -= 1
-            return Action(decision=Decision.CONCEDE) if left[0] < 0 else potter(view)
-
-        return choose
-
-    if table is None:
-        table = physics.Table.fastfiz() if seed % 10 == 9 else physics.Table.olympiad()
-    chairs = (player(f"ann {seed}"), player(f"bob {seed}"))
-    return play_game(EightBall(table), chairs, MatchSeed.of(seed).game(0), NoiseModel(1.0), players=("ann 3", "bob 3"))
 
 
 def times_of(stroke: Any, chance: random.Random) -> list[float]:
@@ -157,6 +137,58 @@ def test_a_ball_in_the_air_is_drawn_where_it_is_and_as_high(page, server, name):
                 assert math.dist(truth.spins[number], shown["spin"]) < 1e-6
                 highest = max(highest, height)
     assert highest > 5e-4, "even a masse hops"
+
+
+SIDE = """async ([table, entry, ball]) => {
+  const { traceOf } = await import("/web/trace.js");
+  const { passed, profile } = await import("/web/side_view.js");
+  const trace = traceOf(table, entry);
+  const samples = profile(trace, ball);
+  return [samples, passed(trace, ball, samples).map((one) => one.ball)];
+}"""
+
+
+def test_the_side_view_has_the_heights_of_the_physics(page, server):
+    """Issue 20: height over the way in plan, in closed form at every moment; and the ball that is jumped over."""
+    page.goto(server.url)
+    positions, shot = JUMPS["over a ball"]
+    table = physics.Table.nine_foot().replace(cue_test=False)
+    result = physics.simulate(table, physics.TableState.from_positions(positions), physics.Shot(*shot))
+    entry = {"before": positions, "events": result.events.to_dicts(), "duration": result.duration}
+    samples, over = page.evaluate(SIDE, [table.to_dict(), entry, 0])
+    assert over == [1]
+    assert samples[-1]["time"] == result.duration
+    before = [*positions[0]]
+    along = 0.0
+    for one in samples:
+        truth = result.at(one["time"])
+        assert abs(one["height"] - truth.heights[0]) < TOLERANCE
+        assert math.dist(one["position"], truth.positions[0]) < TOLERANCE
+        along += math.dist(before, one["position"])
+        before = one["position"]
+        assert one["along"] == pytest.approx(along, abs=1e-9)
+    assert sum(one["height"] > 0.0 for one in samples) > 40
+
+
+def test_the_laboratory_shows_a_jump_from_the_side_up_to_85_degrees(page, server, foretold):
+    page.goto(f"{server.url}/#/lab?table=nine_foot&balls=0:0.635,0.6+1:0.635,0.9+2:0.635,1.9&shot=3,90,45,0,20")
+    foretold(page)
+    positions, shot = JUMPS["over a ball"]
+    result = physics.simulate(
+        physics.Table.nine_foot(), physics.TableState.from_positions(positions), physics.Shot(*shot)
+    )
+    highest = max(result.at(n * result.duration / 20_000).heights[0] for n in range(5_000))
+    page.get_by_role("img", name=f"cue ball: {100 * highest:.1f} cm high at most").wait_for()
+    assert page.locator(".side-view .passed").count() == 1
+    assert violations(page) == []
+    raised = page.get_by_label("Cue raised, degrees", exact=True)
+    raised.fill("85")
+    raised.press("Tab")
+    foretold(page)
+    assert raised.input_value() == "85"
+    page.get_by_label("Kind of table").select_option("olympiad")
+    foretold(page)
+    assert not page.locator(".side-view").is_visible(), "nothing flies there"
 
 
 SHADE = """async ([table, height]) => {

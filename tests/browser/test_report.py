@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 from support.events import by_lot, play, spec_of
 from support.require import require
+from support.short_games import short_game
 
 from tournament import NoisePlan, SprtTerms, Tournament
-from tournament.report import event_report, page
+from tournament.report import event_report, page, replay, turning_points
 
 WIDE, PHONE = (1200, 900), (390, 844)
 
@@ -19,9 +20,15 @@ def reports(tmp_path_factory):
     table = spec_of(5, noise=NoisePlan((0.0, 1.0, 5.0)), pairs=3)
     test = spec_of(2, pairs=40, sprt=SprtTerms(elo1=200.0))
     folder, found = tmp_path_factory.mktemp("reports"), []
+    lines = tuple(short_game(3, 6).record())
+    (folder / "game.html").write_text(replay(lines), encoding="utf-8")
     for name, spec in (("table", table), ("test", test)):
+        event = play(Tournament(spec), by_lot(3))
+        first = type(event.results[0]).from_dict(event.results[0].to_dict() | {"record": "game.jsonl"})
+        event = Tournament(spec).with_results(first, *event.results[1:])
+        data = event_report(event, moments=turning_points({"game.jsonl": lines}), replays={"game.jsonl": "game.html"})
         path = folder / f"{name}.html"
-        path.write_text(page(event_report(play(Tournament(spec), by_lot(3)))), encoding="utf-8")
+        path.write_text(page(data), encoding="utf-8")
         found.append(path.as_uri())
     return found
 
@@ -41,6 +48,17 @@ def test_a_report_asks_for_nothing_complains_of_nothing_and_fits(browser, report
         assert shown.get_by_role("img").count() >= 1
     assert faults == []
     assert asked == reports
+    context.close()
+
+
+def test_a_game_of_a_report_is_watched_without_a_network(browser, reports):
+    context = browser.new_context(offline=True)
+    shown = context.new_page()
+    shown.goto(reports[0])
+    shown.get_by_role("link", name="watch the game").click()
+    shown.locator("#caption", has_text="1 of 6").wait_for()
+    shown.get_by_role("button", name="Play").click()
+    shown.wait_for_function("() => Number(document.getElementById('time').value) > 0")
     context.close()
 
 

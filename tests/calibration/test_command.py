@@ -2,15 +2,20 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 from support.require import ROOT
 
+from calibration import ErrorModel
 from calibration.synthetic import seen
 from calibration.writing import paths_csv, strokes_csv
+from client.cli.calibrate import write_noise
 from physics import Table
 from physics.table_file import read_table
+from referee.play.noise import Sigmas
+from referee.play.noise_file import read_sigmas
 
 TRUTH = Table.olympiad().replace(mu_slide=0.23)
 
@@ -58,6 +63,10 @@ def test_the_report_shows_every_shot_and_needs_nothing_else(folder, done):
     [
         (("paths.csv", "--fit", "mu_glide"), "fit = 'mu_glide': must be different ones of"),
         (("lost.csv", "--fit", "mu_slide"), "lost.csv cannot be read"),
+        (
+            ("paths.csv", "--fit", "mu_slide", "--noise-out", "noise.json"),
+            "noise-out = 'noise.json': must end",
+        ),
         (("paths.csv", "--fit", "mu_slide", "--out", "x.txt"), "out = 'x.txt': must end in .toml"),
         (("bad.csv", "--fit", "mu_slide"), "bad.csv, line 5, column x = 'here': must be a number"),
     ],
@@ -72,3 +81,14 @@ def test_what_is_wrong_is_one_sentence(folder, words, said):
 
 def test_the_example_says_that_it_is_synthetic():
     assert (ROOT / "examples" / "calibration" / "paths.csv").read_text().startswith("# Synthetic: ")
+
+
+def test_a_players_noise_is_written_as_far_as_the_data_tell_it(tmp_path):
+    """Elevation is often not told: then it is the Olympiad's, and the file says so."""
+    sigmas = {"v": 0.05, "phi": 0.2, "theta": 3.0, "a": 1.0, "b": 11.0}
+    told = {name: name != "theta" for name in sigmas}
+    nothing = dict.fromkeys(sigmas, (0.0, 0.0))
+    errors = ErrorModel(12, sigmas, nothing, dict.fromkeys(sigmas, 0.0), np.eye(5), told)
+    write_noise(tmp_path / "noise.toml", errors, Path("paths.csv"))
+    assert read_sigmas(tmp_path / "noise.toml") == Sigmas(v=0.05, phi=0.2, a=1.0, b=10.0)
+    assert "# theta: not told by these data" in (tmp_path / "noise.toml").read_text()

@@ -26,6 +26,8 @@ WITHOUT_METHOD = {
         "get",
         "/v1/games/{}/position.svg",
     ): "for pages and previews, which have its address; `pictures.svg` draws it here",
+    ("get", "/v1/games/{}/position.png"): "the same as PNG",
+    ("get", "/v1/best-strokes"): "for the page's lobby; a program has the records, and `tournament.luck` for them",
     ("get", "/v1/games/{}/shots/{}.svg"): "the same for a stroke",
     ("get", "/healthz"): "for whoever runs the server, not for whoever plays",
     ("get", "/readyz"): "the same",

@@ -104,6 +104,26 @@ def test_columns_say_what_the_events_say(result):
             assert row["other_motion"] == ""
 
 
+class Frame:
+    """Takes what both `pandas.DataFrame` and `polars.DataFrame` take: names to arrays of one dimension and length."""
+
+    def __init__(self, data):
+        assert isinstance(data, dict)
+        self.columns = list(data)
+        self.height = len(next(iter(data.values())))
+        for name, column in data.items():
+            assert isinstance(name, str)
+            assert isinstance(column, np.ndarray)
+            assert column.shape == (self.height,)
+            assert column.dtype.kind in "ifU", (name, column.dtype)
+
+
+def test_columns_make_a_data_frame_of_either_library(result):
+    frame = Frame(result.events.to_arrays())
+    assert frame.height == result.n_events
+    assert frame.columns[:6] == ["time", "kind", "ball", "other", "x", "y"]
+
+
 def test_a_dictionary_is_json(result):
     value = json.loads(json.dumps(result.to_dict(), allow_nan=False))
     assert value["status"] == "at_rest"

@@ -10,9 +10,9 @@ import pytest
 from pydantic import TypeAdapter
 
 from physics.table import Table
-from protocol import ClockView, GameTerms, NoiseTerms, NoiseView, View
+from protocol import ClockView, GameTerms, NoiseView, View
 from referee.game import CueBallArea, Decision, EndReason, Group, Outcome, Phase
-from referee.play import MatchSeed, start_game
+from referee.play import MatchSeed, NoiseModel, start_game
 from referee.rules import EightBall
 
 TABLE = Table.olympiad()
@@ -31,7 +31,7 @@ def terms(told=True):
         players=("ann", "bob"),
         rules="eight_ball",
         table={"name": "olympiad"},
-        noise=NoiseView.of(NoiseTerms(level=1.5, told=told)),
+        noise=NoiseView.of(NoiseModel(1.5, told), told),
         dry_visits_limit=24,
         replays_limit=2,
         strokes_limit=400,

@@ -25,9 +25,11 @@ LET_IN = {
     "GET /readyz": PUBLIC,
     "HEAD /readyz": PUBLIC,
     "GET /": PUBLIC,
+    "GET /games/{game_id}": PUBLIC,
     "GET /web/{name}": PUBLIC,
     "GET /v1/keys": PUBLIC,
     "GET /v1/ladder": PUBLIC,
+    "GET /v1/best-strokes": PUBLIC,
     "GET /v1/tables": PUBLIC,
     "GET /v1/tables/{name}": PUBLIC,
     "POST /v1/tables": PUBLIC,
@@ -61,6 +63,7 @@ LET_IN = {
     "GET /v1/games/{game_id}": PUBLIC,
     "GET /v1/games/{game_id}/clock": PUBLIC,
     "GET /v1/games/{game_id}/shots": PUBLIC,
+    "GET /v1/games/{game_id}/position.png": PUBLIC,
     "GET /v1/games/{game_id}/position.svg": PUBLIC,
     "GET /v1/games/{game_id}/record": PUBLIC,
     "GET /v1/games/{game_id}/shots/{number}.svg": PUBLIC,
@@ -76,7 +79,7 @@ LET_IN = {
 }
 """Route to the roles that are let in; the match is running, the agent of the address is its mover."""
 
-UNPROTECTED = ("/openapi.json", "/docs", "/healthz", "/readyz", "/metrics", "/", "/web/{name}")
+UNPROTECTED = ("/openapi.json", "/docs", "/healthz", "/readyz", "/metrics", "/", "/games/{game_id}", "/web/{name}")
 """Routes that do not look at a token at all."""
 
 

@@ -53,6 +53,8 @@ def test_only_the_organiser_makes_matches_of_others(new_player):
         ({"games": "2"}, "games"),
         ({"noise": {"level": 5.1}}, "noise.level"),
         ({"noise": {"level": 1.0, "told": 1}}, "noise.told"),
+        ({"noise": {"sigmas": {"v": 1.5}}}, "noise.sigmas.v"),
+        ({"noise": {"sigmas": {"w": 0.1}}}, "noise.sigmas.w"),
         ({"clock": {"seconds": 0}}, "clock.seconds"),
         ({"clock": {"seconds": 1e-10}}, "clock.seconds"),
         ({"table": {"name": "olympiad", "mu_slide": -1.0}}, "table"),
@@ -140,6 +142,23 @@ def test_the_noise_level_is_told_to_nobody_unless_it_is_told_to_the_players(new_
     assert view["noise"] == match["noise"] == {"told": False, "level": None}
     aborted = table.organiser.post(f"/v1/matches/{table.match['id']}/abort").json()
     assert aborted["noise"] == {"told": False, "level": 3.0}
+
+
+@pytest.mark.parametrize("told", [True, False])
+def test_a_match_with_standard_deviations_of_its_own(new_table, told):
+    """They are part of the commitment, told with the level, and every record has them."""
+    sigmas = {"v": 0.01, "phi": 0.4, "theta": 0.1, "a": 0.5, "b": 0.5}
+    table = new_table(noise={"level": 1.0, "told": told, "sigmas": {"v": 0.01, "phi": 0.4}})
+    mover, view = table.mover()
+    shown = {"told": True, "level": 1.0, "sigmas": sigmas} if told else {"told": False, "level": None}
+    assert view["noise"] == table.organiser.get(f"/v1/matches/{table.match['id']}").json()["noise"] == shown
+    assert mover.post(f"/v1/games/{view['game']}/concede", version=view["version"]).status_code == 200
+    for player in table.players:
+        assert player.turn()["type"] == "game_over"
+    record = table.organiser.get(f"/v1/games/{view['game']}/record").text.splitlines()
+    assert json.loads(record[0])["noise"] == {"level": 1.0, "told": told, "sigmas": sigmas}
+    assert json.loads(record[0])["commitment"] == view["commitment"]
+    assert verify_record(record).ok
 
 
 def test_matches_of_a_status_there_is_not_are_refused(server):

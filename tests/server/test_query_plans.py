@@ -127,7 +127,8 @@ def play(table: Any, script: Any) -> None:
         mover, view = table.mover()
         for _ in range(2):
             mover.post(f"/v1/games/{view['game']}/concede", key=f"end {view['game']}", version=view["version"])
-    for path in ("", "/shots", "/shots?cursor=1", "/clock", "/record", "/position.svg", "/shots/1.svg"):
+    pictures = ("/position.svg", "/position.png", "/shots/1.svg")
+    for path in ("", "/shots", "/shots?cursor=1", "/clock", "/record", *pictures):
         assert table.organiser.get(game + path).status_code == 200, path
     for player in table.players:
         while player.get("/v1/turns", wait=0).status_code == 200:
@@ -179,7 +180,7 @@ def read_lists(server: Serving, organiser: Any, table: Any) -> None:
         *(f"/v1/matches?{each}&status=finished" for each in of_matches),
         *("/v1/tournaments?", "/v1/tournaments?status=finished", "/v1/tournaments?search=cup"),
         *("/v1/agents?", "/v1/agents?house=true", "/v1/agents?search=player", "/v1/tokens?"),
-        *("/v1/keys?", "/v1/ladder?", "/metrics?", "/healthz?", "/readyz?", "/v1/agents/me?"),
+        *("/v1/keys?", "/v1/ladder?", "/v1/best-strokes?", "/metrics?", "/healthz?", "/readyz?", "/v1/agents/me?"),
     ):
         for page in ("", f"&cursor={place}"):
             assert server.request("GET", listed + page, organiser.token).status_code in (200, 403), listed

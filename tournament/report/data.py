@@ -5,9 +5,11 @@ One object carries all of it; the page and the tables for analysis are made from
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from tournament.luck import GameLuck
+from tournament.report.moments import Moment
 from tournament.results import GameResult
 from tournament.scores import Key
 from tournament.standings import standings
@@ -23,13 +25,22 @@ Data = dict[str, Any]
 _UNRATED: Data = {"ratings": [], "superiority": {"names": [], "likelihoods": []}}
 
 
-def event_report(event: Tournament, luck: Mapping[Key, GameLuck] | None = None, *, rated: bool = True) -> Data:
+def event_report(
+    event: Tournament,
+    luck: Mapping[Key, GameLuck] | None = None,
+    *,
+    rated: bool = True,
+    moments: Sequence[Moment] = (),
+    replays: Mapping[str, str] | None = None,
+) -> Data:
     """The report of an event, finished or not; its terms say whether its dice were foreseeable.
 
     Args:
         event: as it stands.
         luck: of games, by pair id and leg, as far as it has been computed.
         rated: whether the entrants are rated; not where somebody else's players could foresee the dice.
+        moments: turning points to show.
+        replays: addresses of pages that play games, by the games' records.
     """
     test = event.test
     return {
@@ -47,9 +58,10 @@ def event_report(event: Tournament, luck: Mapping[Key, GameLuck] | None = None, 
         "test": None if test is None else test.to_dict(),
         "standings": [line.to_dict() for line in standings(event)],
         "byes": [{"round": bye.round, "player": bye.player} for bye in event.byes],
+        "moments": [moment.to_dict() for moment in moments],
         **_common(event.counted, event.spec.names, luck or {}),
         **({} if rated else _UNRATED),
-        "games": [_game(result, luck or {}) for result in _in_order(event)],
+        "games": [_game(result, luck or {}, replays or {}) for result in _in_order(event)],
     }
 
 
@@ -196,7 +208,8 @@ def _in_order(event: Tournament) -> Iterable[GameResult]:
     return sorted(event.results, key=lambda one: (number[one.pair], one.leg, one.attempt))
 
 
-def _game(result: GameResult, luck: Mapping[Key, GameLuck]) -> Data:
+def _game(result: GameResult, luck: Mapping[Key, GameLuck], replays: Mapping[str, str] = MappingProxyType({})) -> Data:
     """A line of the list of games."""
     found = luck.get((result.pair, result.leg)) if result.counts else None
-    return result.to_dict() | {"luck": None if found is None else [found.of(0), found.of(1)]}
+    more = {"luck": None if found is None else [found.of(0), found.of(1)], "replay": replays.get(result.record)}
+    return result.to_dict() | more

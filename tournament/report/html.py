@@ -8,11 +8,13 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from html import escape
 from importlib.resources import files
+from types import MappingProxyType
 from typing import Any
 from urllib.parse import quote
 
 from physics import Table
 from referee.game import RULES
+from tournament.report import legends
 from tournament.report.data import Data
 from tournament.report.svg import Line, Whisker, dots, lines
 
@@ -22,6 +24,7 @@ MOST_LINES = 8
 MOST_GAMES = 2000
 """Games listed in the page; the JSON and the comma-separated values have all."""
 
+_NONE: Mapping[str, str] = MappingProxyType({})
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 _WEB = re.compile(r"https?://[^\s]+", re.IGNORECASE)
 _PATH = re.compile(r"(?!/)(?!.*(?:^|/)\.\.(?:/|$))[\w.,=+@ -]+(?:/[\w.,=+@ -]+)*")
@@ -40,7 +43,11 @@ def page(data: Data) -> str:
     """The whole page for ``event_report`` or ``server_report``."""
     style = files("tournament.report").joinpath("style.css").read_text(encoding="utf-8")
     bodies = [(title, make(data)) for title, make in (_EVENT if data["kind"] == "event" else _SERVER)]
-    sections = "\n".join(f"<section>\n<h2>{title}</h2>\n{body}\n</section>" for title, body in bodies if body)
+    sections = "\n".join(
+        f"<section{_HALF if title in _NARROW else ''}>\n<h2>{title}</h2>\n{body}\n</section>"
+        for title, body in bodies
+        if body
+    )
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
@@ -50,24 +57,35 @@ def page(data: Data) -> str:
     )
 
 
-def table(caption: str, heads: Sequence[str], rows: Iterable[Sequence[Any]], texts: int = 1) -> str:
-    """A table; the first ``texts`` columns are texts, the others numbers. Cells are escaped here."""
+def table(
+    caption: str, heads: Sequence[str], rows: Iterable[Sequence[Any]], texts: int = 1, says: Mapping[str, str] = _NONE
+) -> str:
+    """A table; the first ``texts`` columns are texts, the others numbers. Cells are escaped here.
+
+    ``says`` tells below the table what columns mean, those that it has.
+    """
     marks = [' class="text"' if index < texts else "" for index in range(len(heads))]
     head = "".join(f'<th scope="col"{mark}>{text(name)}</th>' for mark, name in zip(marks, heads, strict=True))
     body = "".join(_cells(row, marks) for row in rows)
     return (
         f'<div class="wide" tabindex="0"><table><caption>{text(caption)}</caption>'
-        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
+        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>{_legend(heads, says)}"
     )
 
 
-def link(record: str) -> str:
-    """A record's place as a link, as text if it is neither a web address nor a plain relative path."""
-    if _WEB.fullmatch(record):
-        return f'<a href="{escape(record)}" rel="noreferrer">replay</a>'
-    if _PATH.fullmatch(record):
-        return f'<a href="{escape(quote(record))}">replay</a>'
-    return text(record)
+def _legend(heads: Sequence[str], says: Mapping[str, str]) -> str:
+    meanings = [(name, meaning) for name, meaning in says.items() if name in heads]
+    rows = "".join(f"<div><dt>{text(name)}</dt><dd>{text(meaning)}</dd></div>" for name, meaning in meanings)
+    return f'<dl class="says">{rows}</dl>' if rows else ""
+
+
+def link(address: str, words: str) -> str:
+    """A link, as text if it leads neither to a web address nor to a plain relative path; nothing without an address."""
+    if _WEB.fullmatch(address):
+        return f'<a href="{escape(address)}" rel="noreferrer">{text(words)}</a>'
+    if _PATH.fullmatch(address):
+        return f'<a href="{escape(quote(address))}">{text(words)}</a>'
+    return text(address)
 
 
 def _cells(row: Sequence[Any], marks: Sequence[str]) -> str:
@@ -76,6 +94,11 @@ def _cells(row: Sequence[Any], marks: Sequence[str]) -> str:
 
 def _figure(plot: str, caption: str) -> str:
     return f'<figure tabindex="0">{plot}<figcaption>{text(caption)}</figcaption></figure>'
+
+
+def _beside(*parts: str) -> str:
+    """Beside one another where there is room."""
+    return f'<div class="beside">{"".join(f"<div>{part}</div>" for part in parts if part)}</div>'
 
 
 def _note(words: str) -> str:
@@ -146,7 +169,44 @@ def _standings(data: Data) -> str:
         )
         for one in data["standings"]
     ]
-    return table("The best first; score is points in games", (*heads, *ties), rows)
+    return table("The best first", (*heads, *ties), rows, says=legends.STANDINGS)
+
+
+def _moments(data: Data) -> str:
+    if not data.get("moments"):
+        return ""
+    replays = {game["record"]: game for game in data["games"]}
+    cards = "".join(_moment(moment, replays[moment["record"]]) for moment in data["moments"])
+    about = (
+        "The strokes that changed the chance of their player to win the most, one of a game at most, by the value "
+        "function of luck, which counts balls and turns and not how the balls lie."
+    )
+    return f'{_note(about)}<div class="moments">{cards}</div>'
+
+
+def _moment(moment: Data, game: Data) -> str:
+    change = f"{100 * moment['before']:.0f} % to {100 * moment['after']:.0f} %"
+    told = f"{moment['player']}, stroke {moment['number']}: {change}"
+    where = f" ({link(game['replay'], 'watch the game')})" if game["replay"] else ""
+    return (
+        f"<figure>{moment['picture']}<figcaption><strong>{text(told)}</strong> {text(moment['words'])} "
+        f"{text(_name_of(game))}{where}</figcaption></figure>"
+    )
+
+
+_PLACE = re.compile(r"r(\d+)-m(\d+)-p(\d+)")
+
+
+def _name_of(game: Data) -> str:
+    """Which game it is, in words; both of a pair have the same racks, and the break is exchanged."""
+    found = _PLACE.fullmatch(game["pair"])
+    if found is None:
+        return f"{game['pair']}, {_LEGS[game['leg']]} game"
+    place, _, pair = (int(number) + 1 for number in found.groups())
+    return f"Round {place}, pair {pair}, {_LEGS[game['leg']]} game"
+
+
+_LEGS = ("first", "second")
 
 
 def _ladder(data: Data) -> str:
@@ -175,13 +235,9 @@ def _ratings(data: Data) -> str:
         for one in ratings
     ]
     heads = ("Name", "Elo", "from", "to", "all: from", "to", "Rank", "Games", "Share of points", "from", "to", "Pairs")
-    caption = (
-        "Bradley-Terry ratings, and each entrant's share of the points. The first interval is marginal: with 95 % "
-        "confidence it holds this entrant's true rating, and of many such intervals some miss. Those under 'all' are "
-        "simultaneous: with 95 % confidence every one of them holds. So are the ranks."
-    )
+    caption = "Bradley-Terry ratings, and each entrant's share of the points"
     plot = dots("ratings", "Ratings", about, shown, "Elo above the mean")
-    return _figure(plot, about) + table(caption, heads, rows) + _dispersion(data)
+    return _figure(plot, about) + table(caption, heads, rows, says=legends.RATINGS) + _dispersion(data)
 
 
 _INTERVALS = ("elo", "low", "high", "simultaneous_low", "simultaneous_high")
@@ -232,8 +288,8 @@ def _cross(data: Data) -> str:
         for meeting in data["meetings"]
     ]
     heads = ("Player", "against", "Share", "from", "to", "Pairs", "Elo", "from", "to", "Superiority")
-    about = "Each meeting with 95 % intervals from pairs, and the likelihood that the first is the better one"
-    return cross + table(about, heads, pairs, texts=2)
+    about = "Each meeting, from the side of the player named first"
+    return cross + table(about, heads, pairs, texts=2, says=legends.MEETINGS)
 
 
 def _elo(value: float) -> str:
@@ -268,7 +324,9 @@ def _noise(data: Data) -> str:
         for row in rows
     ]
     heads = ("Name", "Level", "Share of points", "from", "to", "Games")
-    return _figure(plot, "Share of the points at each level, with 95 % intervals") + table("The same", heads, cells)
+    return _beside(
+        _figure(plot, "Share of the points at each level, with 95 % intervals"), table("The same", heads, cells)
+    )
 
 
 def _fouls(data: Data) -> str:
@@ -281,7 +339,7 @@ def _fouls(data: Data) -> str:
     heads = ("Name", "Strokes", "Fouls", "in 100 strokes", *rules)
     meaning = [(rule, RULES.get(rule, "a rule of another version")) for rule in rules]
     legend = table("What the rules say", ("Rule", "Meaning"), meaning, texts=2) if rules else ""
-    return table("Fouls by rule", heads, rows) + legend
+    return table("Fouls by rule; one stroke can break several", heads, rows) + legend
 
 
 def _each(one: Data, rules: Sequence[str]) -> list[int]:
@@ -306,7 +364,7 @@ def _time(data: Data) -> str:
         for one in data["time"]
     ]
     heads = ("Name", "Games", "Seconds", "a game", "longest game", "a stroke", "Simulated shots a game")
-    return table("Thinking time and simulated shots", heads, rows)
+    return table("Thinking time and simulated shots", heads, rows, says=legends.TIME)
 
 
 def _luck(data: Data) -> str:
@@ -323,7 +381,7 @@ def _luck(data: Data) -> str:
         "differ."
     )
     heads = ("Name", "Games", "Pairs", "Share of points", "from", "to", "of it luck", "from", "to", "without luck")
-    return table("Luck a game, in points", (*heads, "from", "to"), rows) + _note(about)
+    return table("Luck a game, in points", (*heads, "from", "to"), rows, says=legends.LUCKY) + _note(about)
 
 
 _LUCK = tuple((name, f"{name}_low", f"{name}_high") for name in ("score", "luck", "corrected"))
@@ -339,13 +397,14 @@ def _ends(data: Data) -> str:
 
 
 def _games(data: Data) -> str:
-    heads = ("Game", "Breaks", "Against", "Winner", "End", "Noise", "Strokes", "Replay")
+    heads = ("Game", "Breaks", "Against", "Winner", "End", "Noise", "Strokes", "To watch", "Record")
     head = "".join(f'<th scope="col" class="text">{name}</th>' for name in heads)
     body = "".join(_game(game) for game in data["games"][:MOST_GAMES])
     left = len(data["games"]) - MOST_GAMES
     more = _note(f"{left} more games are in the data.") if left > 0 else ""
     return (
-        '<div class="wide" tabindex="0"><table><caption>All games; those crossed out do not count</caption>'
+        '<div class="wide" tabindex="0"><table><caption>All games; those crossed out do not count. Both games of a '
+        "pair have the same racks, the break exchanged.</caption>"
         f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>{more}"
     )
 
@@ -354,7 +413,7 @@ def _game(game: Data) -> str:
     players, breaker = game["players"], game["breaker"]
     winner = "–" if game["winner"] is None else players[game["winner"]]
     cells = [
-        f"{game['pair']} {game['leg']}" + (f" again {game['attempt']}" if game["attempt"] else ""),
+        _name_of(game) + (f", again {game['attempt']}" if game["attempt"] else ""),
         players[breaker],
         players[1 - breaker],
         winner,
@@ -364,21 +423,33 @@ def _game(game: Data) -> str:
     ]
     counts = not game["void"] and game["reason"] != "aborted"
     row = "".join(f'<td class="text">{text(cell)}</td>' for cell in cells)
-    return f'<tr{"" if counts else " class=void"}>{row}<td class="text">{link(game["record"])}</td></tr>'
+    watch = f'<td class="text">{link(game["replay"], "watch") if game.get("replay") else "–"}</td>'
+    name = f"{game['pair']} {game['leg']}"
+    record = f'<td class="text">{link(game["record"], name) if game["record"] else text(name)}</td>'
+    return f"<tr{'' if counts else ' class=void'}>{row}{watch}{record}</tr>"
 
 
 Sections = Sequence[tuple[str, Callable[[Data], str]]]
 
 _SHARED: Sections = (
     ("Ratings", _ratings),
-    ("Superiority", _superiority),
     ("Cross table", _cross),
+    ("Superiority", _superiority),
     ("Score against noise", _noise),
+    ("Luck", _luck),
     ("Fouls", _fouls),
     ("Time", _time),
-    ("Luck", _luck),
-    ("Ends of games", _ends),
     ("Games", _games),
 )
-_EVENT: Sections = (("Terms", _terms), ("Sequential test", _test), ("Standings", _standings), *_SHARED)
-_SERVER: Sections = (("Ladder", _ladder), *_SHARED)
+_EVENT: Sections = (
+    ("Standings", _standings),
+    ("Terms", _terms),
+    ("Ends of games", _ends),
+    ("Turning points", _moments),
+    ("Sequential test", _test),
+    *_SHARED,
+)
+_SERVER: Sections = (("Ladder", _ladder), ("Ends of games", _ends), *_SHARED)
+_NARROW = frozenset({"Terms", "Ends of games"})
+"""Sections that have room beside one another."""
+_HALF = ' class="half"'

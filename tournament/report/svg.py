@@ -161,7 +161,7 @@ def _cut(text: str) -> str:
 
 def _image(identity: str, title: str, about: str, height: float, parts: Sequence[str]) -> str:
     return (
-        f'<svg role="img" aria-labelledby="{identity}-t {identity}-d" viewBox="0 0 {WIDTH} {height:g}">'
+        f'<svg class="plot" role="img" aria-labelledby="{identity}-t {identity}-d" viewBox="0 0 {WIDTH} {height:g}">'
         f'<title id="{identity}-t">{escape(title)}</title><desc id="{identity}-d">{escape(about)}</desc>'
         f"{''.join(parts)}</svg>"
     )

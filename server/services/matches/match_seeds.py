@@ -10,6 +10,7 @@ from protocol import MatchRequest, Position
 from referee.game import Game
 from referee.play import GameSeeds, MatchSeed, NoiseModel, client_seeds_from_hex, seed_from_hex
 from referee.play.clock import nanoseconds
+from referee.play.noise import OLYMPIAD_SIGMAS, Sigmas
 from referee.record import Engine, MatchTerms
 from referee.rules import EightBall
 from server.store.rows import GameRow
@@ -26,7 +27,7 @@ def columns(request: MatchRequest, match_id: str) -> dict[str, Any]:
         match=match_id,
         games=request.games,
         rules=EightBall(Table.from_dict(request.table)),
-        noise=NoiseModel(request.noise.level, request.noise.told),
+        noise=request.noise.model(),
         shared_racks=seed.shared_racks,
         paired_racks=request.racks.paired,
         first_breaker=request.first_breaker,
@@ -50,13 +51,19 @@ def terms_of(match: Row[Any]) -> MatchTerms:
         match=match.id,
         games=match.games,
         rules=EightBall(Table.from_dict(match.table)),
-        noise=NoiseModel(match.noise_level, match.noise_told),
+        noise=noise_of(match),
         shared_racks=match.rack_seed is not None,
         paired_racks=match.paired_racks,
         first_breaker=match.given_breaker,
         position=position_of(match),
         engine=Engine(match.engine_version, match.engine),
     )
+
+
+def noise_of(match: Row[Any]) -> NoiseModel:
+    """The execution noise of a match."""
+    sigmas = OLYMPIAD_SIGMAS if match.noise_sigmas is None else Sigmas.from_dict(match.noise_sigmas)
+    return NoiseModel(match.noise_level, match.noise_told, sigmas)
 
 
 def position_of(match: Row[Any]) -> Game | None:

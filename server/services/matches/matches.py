@@ -153,6 +153,7 @@ def insert_match(
         "table": request.table,
         "noise_level": request.noise.level,
         "noise_told": request.noise.told,
+        "noise_sigmas": None if request.noise.sigmas is None else request.noise.sigmas.model_dump(),
         "allowance": nanoseconds(request.clock.seconds),
         "simulations": request.clock.simulations,
         "lag_turn": nanoseconds(writing.context.settings.lag_turn),

@@ -52,7 +52,7 @@ class Fixture:
     @cached_property
     def noise(self) -> NoiseModel:
         """The execution noise of the match."""
-        return NoiseModel(self.match.noise_level, self.match.noise_told)
+        return match_seeds.noise_of(self.match)
 
 
 @dataclass(frozen=True, slots=True)
@@ -248,7 +248,7 @@ _SINCE_OWN: Final = _strokes_since(_LAST.where(moves.c.seat == bindparam("seat")
 
 def noise_view(match: Row[Any], until: Holder | None) -> NoiseView:
     """What everybody may know of a match's noise: no level while it is `withheld`."""
-    return NoiseView(told=match.noise_told, level=match.noise_level if until is None else None)
+    return NoiseView.of(match_seeds.noise_of(match), until is None)
 
 
 def budget_view(match: Row[Any]) -> BudgetView | None:

@@ -157,7 +157,7 @@ def _begin(writing: Writing, row: Row[Any], spec: Spec, due: Due) -> None:
         agents=(first, second),
         games=1,
         table=spec.table if isinstance(spec.table, str) else dict(spec.table),  # type: ignore[arg-type]
-        noise=NoiseTerms(level=due.pair.noise, told=spec.noise.told),
+        noise=NoiseTerms.of(spec.noise.model(due.pair.noise)),
         clock=ClockTerms(seconds=spec.seconds or MOST_SECONDS, simulations=spec.simulated_shots),
         seed=seed.secret.hex(),
         racks=RackTerms(seed=seed.given_racks.hex()),

@@ -1,6 +1,8 @@
 """Pictures of games: how the balls lie, what a stroke did."""
 
-from typing import Any
+import json
+from functools import lru_cache
+from typing import Any, Final
 
 from sqlalchemy import select
 
@@ -10,10 +12,13 @@ from server.errors import NotFound, invalid_field
 from server.services.play import stored_strokes
 from server.services.play.live_game import find
 from server.services.runtime.context import Context
+from server.services.watch.previews import DRAWS_PNG, WIDTH
 from server.store.tables import moves
 
 LONGEST_NUMBER = 9
 """Digits of a stroke's number."""
+PNGS: Final = 128
+"""Pictures as PNG that are kept: one takes 0.1 s to draw, and everybody to whom a link is sent asks for the same."""
 
 
 def position(context: Context, game_id: str, theme: str, upright: bool) -> tuple[str, int]:
@@ -22,6 +27,22 @@ def position(context: Context, game_id: str, theme: str, upright: bool) -> tuple
     with context.database.reading() as connection:
         live = find(connection, game_id)
     return pictures.svg(live.game.state, table=live.rules.table, theme=theme, upright=upright), live.row.version
+
+
+def position_as_png(context: Context, game_id: str) -> tuple[bytes, int]:
+    """The balls of a game as they lie, for a link's preview, and its version; raises `NotFound`."""
+    if not DRAWS_PNG:
+        raise NotFound("this server draws no PNG: it takes the extra, pip install 'pooliad[pictures]'")
+    with context.database.reading() as connection:
+        live = find(connection, game_id)
+    values = (json.dumps(each.to_dict()) for each in (live.game.state, live.rules.table))
+    return _position_as_png(*values), live.row.version
+
+
+@lru_cache(PNGS)
+def _position_as_png(state: str, table: str) -> bytes:
+    places, shape = TableState.from_dict(json.loads(state)), Table.from_dict(json.loads(table))
+    return pictures.png(places, table=shape, width=WIDTH)
 
 
 def stroke(context: Context, game_id: str, number: str, theme: str, upright: bool) -> str:

@@ -11,6 +11,7 @@ from client.arena.directory import EventError
 from client.arena.estimate import estimate
 from client.arena.terms import Terms
 from client.cli import application
+from referee.record import verify_record
 
 CUP = """
 name = "Cup"
@@ -44,8 +45,13 @@ def test_an_event_from_its_file_to_its_report(cli, tmp_path):
     report = json.loads(cli("report", "cup", "--json").stdout)
     assert report["standings"] == played["standings"]
     assert report["luck"] == []
+    assert [one["record"] for one in report["moments"]], "turning points of games that were played"
+    for game in report["games"]:
+        assert (tmp_path / "cup" / game["replay"]).read_text().startswith("<!doctype html>"), game
     (tmp_path / "cup" / "games" / "r0-m0-p0-g1.jsonl").unlink()  # one game is enough here
-    lucky = json.loads(cli("report", "cup", "--luck", "--json").stdout)["luck"]
+    again = json.loads(cli("report", "cup", "--luck", "--replays", "0", "--json").stdout)
+    lucky = again["luck"]
+    assert [game["replay"] for game in again["games"]] == [None, None]
     assert [row["games"] for row in lucky] == [1, 1]
     assert sum(row["games"] * row["luck"] for row in lucky) == pytest.approx(0.0, abs=1e-9)
     assert "<html" in (tmp_path / "cup" / "report.html").read_text()
@@ -143,3 +149,19 @@ def test_an_event_goes_on_without_an_entrant_that_was_taken_out_because_it_canno
     assert isinstance(CliRunner().invoke(application(), ["tournament", "run", "cup.toml"]).exception, EventError)
     cli("disqualify", "cup", "bad", "--reason", "cannot be started")
     assert json.loads(cli("resume", "cup", "--executor", "inline", "--json").stdout)["state"] == "finished"
+
+
+def test_an_event_with_a_players_own_standard_deviations(cli, tmp_path):
+    """`noise.sigmas` names a file beside the event file, as `pooliad calibrate --noise-out` writes it."""
+    (tmp_path / "mine.toml").write_text("phi = 0.4\nv = 0.01\n")
+    noise = 'noise = {levels = [0.5], sigmas = "mine.toml"}\n'
+    (tmp_path / "cup.toml").write_text(CUP.replace("seed = 4\n", f"seed = 4\n{noise}"))
+    assert json.loads(cli("run", "cup.toml", "--executor", "inline", "--json").stdout)["state"] == "finished"
+    lines = (tmp_path / "cup" / "games" / "r0-m0-p0-g1.jsonl").read_text().splitlines()
+    sigmas = {"v": 0.01, "phi": 0.4, "theta": 0.1, "a": 0.5, "b": 0.5}
+    assert json.loads(lines[0])["noise"] == {"level": 0.5, "told": True, "sigmas": sigmas}
+    assert verify_record(lines).ok
+    assert json.loads(cli("status", "cup", "--json").stdout)["state"] == "finished"
+    (tmp_path / "mine.toml").write_text("phi = 40\n")
+    with pytest.raises(EventError, match="phi = 40: must be a number from 0 to 10"):
+        Terms.read(tmp_path / "cup.toml")

@@ -9,10 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
+from physics.errors import FieldError
 from physics.generator import SeededStream
 from physics.shot import FIELDS, Shot
 from physics.table import Table
 from referee.play import NoiseModel
+from referee.play.noise import Sigmas
+from referee.play.noise_file import read_sigmas, write_sigmas
 
 SEED = bytes(range(32))
 SHOT = Shot(v=4.0, phi=120.0, theta=20.0, a=1.0, b=-2.0)
@@ -143,3 +146,47 @@ def test_a_level_that_is_none_is_named(level):
 def test_told_is_yes_or_no(told):
     with pytest.raises(ValueError, match="told = "):
         NoiseModel(1.0, told)
+
+
+OWN = Sigmas(v=0.02, phi=0.5, theta=0.3, a=2.0, b=0.0)
+
+
+def test_standard_deviations_of_ones_own_take_the_place_of_the_olympiads():
+    """Issue "Calibration": the diagonal of an error model is a noise. The same draws, other factors."""
+    stream = SeededStream(SEED, "pooliad/1 stroke 9")
+    z = [stream.gaussian() for _ in range(5)]
+    noisy = NoiseModel(2.0, sigmas=OWN).perturb(SHOT, SEED, 9)
+    assert (noisy.a, noisy.b) == (SHOT.a + 2.0 * 2.0 * z[0], SHOT.b)
+    assert noisy.v == SHOT.v + 2.0 * 0.02 * z[4]
+    draws = np.array([[z[4], z[3], z[2], z[0], z[1]]])
+    row = np.array([[SHOT.v, SHOT.phi, SHOT.theta, SHOT.a, SHOT.b]])
+    assert NoiseModel(2.0, sigmas=OWN).perturb_rows(row, draws).tolist() == [
+        [noisy.v, noisy.phi, noisy.theta, noisy.a, noisy.b]
+    ]
+
+
+def test_only_other_standard_deviations_are_written_down():
+    """What records and commitments of the Olympiad's noise hold stays byte for byte."""
+    assert NoiseModel(1.0, sigmas=Sigmas(v=0.075)).to_dict() == {"level": 1.0, "told": True}
+    written = NoiseModel(1.0, False, OWN).to_dict()
+    assert written == {"level": 1.0, "told": False, "sigmas": OWN.to_dict()}
+    assert NoiseModel.from_dict(written) == NoiseModel(1.0, False, OWN)
+
+
+@pytest.mark.parametrize(
+    ("values", "field"),
+    [({"v": 1.01}, "v"), ({"phi": -0.1}, "phi"), ({"a": math.nan}, "a"), ({"b": "1"}, "b"), ({"c": 1}, "c"), (3, "")],
+)
+def test_standard_deviations_that_cannot_be_are_named(values, field):
+    with pytest.raises(FieldError) as error:
+        Sigmas.from_dict(values)
+    assert error.value.field == field
+
+
+def test_standard_deviations_in_a_file(tmp_path):
+    file = tmp_path / "noise.toml"
+    write_sigmas(file, OWN, ("of somebody",))
+    assert read_sigmas(file) == OWN
+    file.write_text("v = ")
+    with pytest.raises(FieldError, match="must be a TOML file"):
+        read_sigmas(file)
