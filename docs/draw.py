@@ -29,6 +29,37 @@ def rack_on_the_olympiads_table() -> str:
     return pictures.svg(physics.rack(table, seed=7), table=table, shot=physics.Shot(9.0, 270.0, 5.0), theme="light")
 
 
+TURN = {
+    0: (0.62, 1.45), 1: (0.25, 0.55), 2: (1.05, 0.45), 6: (0.9, 1.5), 8: (0.75, 0.9), 9: (0.5, 1.0), 12: (0.95, 2.1),
+    14: (0.3, 2.0),
+}  # fmt: skip
+"""The position of how_search_thinks.md; solids shoot."""
+FENCE = {
+    9 + number: (0.35 * float(np.cos(np.radians(angle))), 0.35 * float(np.sin(np.radians(angle))))
+    for number, angle in enumerate((9.0, 27.0, 45.0, 63.0, 81.0))
+} | {0: (0.2983, 0.426), 1: (0.07, 0.07), 8: (0.9, 2.2)}
+"""Another: nothing on the cloth reaches ball 1."""
+
+
+def chosen(balls: dict[int, tuple[float, float]], shot: physics.Shot, call: tuple[int, int], noise: float) -> str:
+    """A stroke that `search` chose on a nine-foot table, and where noise of a level leaves the balls."""
+    table, state = physics.Table.nine_foot(), physics.TableState.from_positions(balls)
+    draws = np.random.default_rng(1).normal(size=(150, 5)) * (0.075, 0.125, 0.1, 0.5, 0.5)
+    rows = np.array([shot.v, shot.phi, shot.theta, shot.a, shot.b]) + noise * draws
+    batch = physics.simulate_batch(table, state, np.clip(rows, (0, -1e9, 0, -99, -99), (12, 1e9, 85, 99, 99)))
+    return pictures.svg(physics.simulate(table, state, shot), shot=shot, call=call, variants=batch)
+
+
+def a_turn() -> str:
+    """The choice of `pooliad agent explain` in the position of the page."""
+    return chosen(TURN, physics.Shot(1.89, 20.28, 1.0, -7.5, 5.0), (6, 4), noise=2.0)
+
+
+def over_a_fence() -> str:
+    """The jump that it finds where nothing else reaches the ball."""
+    return chosen(FENCE, physics.Shot(3.78, 236.56, 30.0, 0.0, -3.0), (1, 0), noise=1.0)
+
+
 Scene = tuple[dict[int, tuple[float, float]], physics.Shot]
 FLIGHTS: dict[str, Scene] = {
     "masse": ({0: (0.5, 0.9), 1: (0.5, 1.25)}, physics.Shot(4.0, 80.0, 55.0, -14.0, 6.0)),
@@ -102,6 +133,8 @@ PICTURES: dict[str, Callable[[], str]] = {
     "shot.svg": shot_on_a_real_table,
     "rack.svg": rack_on_the_olympiads_table,
     "heights.svg": heights,
+    "turn.svg": a_turn,
+    "over_a_fence.svg": over_a_fence,
     **{f"{name}.svg": seen_from_above(name) for name in FLIGHTS},
 }
 """Every picture, by its file's name."""

@@ -44,7 +44,7 @@ def load(name: str, seed: int | None = None) -> AgentFactory:
     """
     shipped, _, options = name.partition(":")
     if shipped in SHIPPED:
-        return _with_options(name, partial(_class_at(SHIPPED[shipped]), seed=seed, **_options(name, options)))
+        return _with_options(name, partial(_class_at(SHIPPED[shipped]), seed=seed, **options_of(name, options)))
     if name.startswith(STDIO):
         return _command(name)
     factory: AgentFactory = _class_at(name)
@@ -72,8 +72,12 @@ def _allowed(title: str) -> str:
     return re.sub(r"[^A-Za-z0-9 _.-]", "-", title).lstrip(" _.-")[:60]
 
 
-def _options(name: str, text: str) -> dict[str, bool | int | float | str]:
-    """The options of a name: `seconds=0.3,safeties=off` as values by option."""
+def options_of(name: str, text: str) -> dict[str, bool | int | float | str]:
+    """The options of an agent's name: `seconds=0.3,safeties=off` as values by option.
+
+    Raises:
+        AgentNotFound: the text is not of this form.
+    """
     pairs = [pair.partition("=") for pair in text.split(",")] if text else []
     for option, equals, value in pairs:
         if not (option and equals and value):

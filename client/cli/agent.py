@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from client.cli.check import check
+from client.cli.explain import explain
 from client.cli.output import USAGE, Json, emit, fail, say
 from client.cli.players import load_player
+from client.cli.tables import TableCommand
 
 if TYPE_CHECKING:
     from client.agents.registry import Player
@@ -26,6 +28,7 @@ def commands() -> typer.Typer:
     app.command("run")(run)
     app.command("spar")(spar)
     app.command("check")(check)
+    app.command("explain", cls=TableCommand)(explain)
     return app
 
 
@@ -68,7 +71,8 @@ def spar(
     from client.sparring import spar as play
 
     _prepare(token)
-    over = play(_ready(name, seed), url, token, bot, games=games, noise=noise, seconds=seconds, start=_position(start))
+    begin = None if start is None else read_position(start)
+    over = play(_ready(name, seed), url, token, bot, games=games, noise=noise, seconds=seconds, start=begin)
     _report(over, as_json)
 
 
@@ -97,14 +101,12 @@ def _ready(name: str, seed: int | None) -> "Player":
     return player
 
 
-def _position(file: Path | None) -> "Game | None":
+def read_position(file: Path) -> "Game":
     """The position in a file; leaves the command when it is none."""
     from pydantic import ValidationError
 
     from protocol import Position
 
-    if file is None:
-        return None
     try:
         return Position.model_validate_json(file.read_bytes()).to_game()
     except OSError as error:

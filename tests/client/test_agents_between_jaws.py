@@ -1,7 +1,9 @@
 """The shipped agents on tables with jaws (docs/agents.md): whole games, the break, and pots that need aiming."""
 
+import math
 from collections import Counter
 
+import numpy as np
 import pytest
 
 import client
@@ -9,8 +11,12 @@ import physics
 from client import geometry
 from client.agents.greedy.candidates import Candidates
 from client.agents.search.breaks import best_break
+from client.agents.search.explaining import explained, thought_about
+from client.agents.search.jumps import flies
+from client.agents.search.options import Options
+from physics.facts import NEVER
 from physics.table import NAMED
-from referee import Call, EightBall, Phase
+from referee import Call, EightBall, Game, Group, Phase
 from referee.record import verify_record
 
 NINE = physics.Table.nine_foot()
@@ -71,3 +77,36 @@ def test_greedy_aims_off_the_ghost_ball_where_balls_throw():
         for shot in (plan.action.shot for plan in plans)
     ]
     assert sum(made) > sum(plain)
+
+
+def fenced():
+    """Ball 1 in the jaws of a corner behind five stripes that lie closer together than a ball is wide."""
+    fence = {9 + n: (0.35 * math.cos(math.radians(a)), 0.35 * math.sin(math.radians(a))) for n, a in enumerate(FENCE)}
+    cue = 0.52 * math.cos(math.radians(55.0)), 0.52 * math.sin(math.radians(55.0))
+    state = physics.TableState.from_positions({0: cue, 1: (0.07, 0.07), 8: (0.9, 2.2), **fence})
+    return Game(state, Phase.PLAY, 0, 0, groups=(Group.SOLIDS, Group.STRIPES))
+
+
+FENCE = (9.0, 27.0, 45.0, 63.0, 81.0)
+
+
+def test_search_jumps_where_nothing_else_reaches_the_ball():
+    """No level stroke in any direction strikes ball 1; `search` pots it over the fence."""
+    rules, game = EightBall(NINE), fenced()
+    cues = [(phi, physics.min_elevation(NINE, game.state, phi) + 0.5) for phi in np.arange(0.0, 360.0, 1.0).tolist()]
+    level = np.array([(v, phi, theta, 0.0, 0.0) for phi, theta in cues for v in (1.5, 3.0, 6.0, 10.0) if theta < 20.0])
+    assert len(level) > 1000
+    assert (physics.simulate_batch(NINE, game.state, level).facts["first_contact"][:, 1] == NEVER).all()
+
+    thought = thought_about(rules, game, 1.0, Options(shots=5000))
+    chosen = explained(rules, game, thought.considered[0])
+    assert (chosen.kind, chosen.made) == ("jump", True)
+    assert thought.action.call == Call(1, 0)
+    assert thought.action.shot.theta > 25.0
+
+
+def test_where_balls_stay_on_the_cloth_it_does_not_try():
+    low = NINE.replace(flight=False)
+    assert not flies(low)
+    thought = thought_about(EightBall(low), fenced(), 1.0, Options(shots=5000))
+    assert thought.action.call != Call(1, 0)

@@ -12,7 +12,9 @@ import physics
 from client.agents.registry import titles
 from client.agents.search import SearchAgent
 from client.agents.search.breaks import best_break
-from client.agents.search.budget import Budget, Pace, allowance
+from client.agents.search.budget import GUESS, Budget, Pace, allowance
+from client.agents.search.engine import geometry
+from client.agents.search.evaluate import AT_ONCE
 from client.agents.search.options import Options
 from client.agents.search.race import race
 from client.agents.search.refine import longest_run
@@ -176,7 +178,7 @@ class Slow(client.Simulator):
 
 
 def test_it_is_never_out_of_time(monkeypatch):
-    """Forty strokes on a clock of 20 s, on a machine three times slower than it guesses at first."""
+    """Forty strokes on a clock of 20 s, on a machine six times slower than it guesses at first."""
     clock, left = Ticking(), 20.0
     monkeypatch.setattr("client.agents.search.agent.time", SimpleNamespace(perf_counter=clock))
     agent = SearchAgent(seed=1, seconds=2.0)
@@ -189,6 +191,55 @@ def test_it_is_never_out_of_time(monkeypatch):
         left -= clock.now - before
         assert left > 0.0
     assert left < 16.0  # and it does use its time
+
+
+class Stalling(Slow):
+    """A machine that stands still for an hour, once, at the batch of this number."""
+
+    def __init__(self, clock, number):
+        super().__init__(clock)
+        self._left = number
+        self.after = 0
+
+    def simulate_batch(self, table, states, shots, threads=1):
+        self._left -= 1
+        self._clock.now += 3600.0 * (self._left == 0)
+        self.after += self._left < 0
+        return super().simulate_batch(table, states, shots, threads)
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 4, 6, 9, 14])
+def test_a_stall_in_any_phase_ends_the_thinking(monkeypatch, number):
+    """Pots, sweep, banks, polishing: what was found until then is played, and nothing more is simulated."""
+    clock = Ticking()
+    monkeypatch.setattr("client.agents.search.agent.time", SimpleNamespace(perf_counter=clock))
+    agent = SearchAgent(seed=1, seconds=2.0)
+    agent.simulator = Stalling(clock, number)
+    balls = {0: (0.5, 1.0), 1: (0.56, 0.06), 9: (0.56, 0.2), 10: (0.5, 0.2), 11: (0.62, 0.2), 8: (0.2, 1.8)}
+    view = view_of(balls, seconds=None)
+    agent.game_started(view)
+    action = agent.choose(view)
+    assert RULES.check(view.to_game(), action) == ()
+    assert clock.now >= 3600.0, "the stall came"
+    assert agent.simulator.after == 0
+
+
+def test_batches_are_small_enough_for_a_clock():
+    """Between two looks at the clock no more than a small part of a second passes."""
+    batches = []
+
+    class Watched(client.Simulator):
+        def simulate_batch(self, table, states, shots, threads=1):
+            batches.append(len(shots))
+            return super().simulate_batch(table, states, shots, threads)
+
+    agent = SearchAgent(seed=1, seconds=0.5)
+    agent.simulator = Watched()
+    balls = {0: (0.5, 1.0), 1: (0.3, 0.3), 2: (0.8, 0.5), 5: (1.0, 1.0), 9: (0.7, 1.7), 8: (0.2, 1.8)}
+    view = view_of(balls)
+    agent.game_started(view)
+    agent.choose(view)
+    assert max(batches) <= AT_ONCE
 
 
 def test_more_seconds_are_more_shots():
@@ -225,6 +276,7 @@ def test_a_budget_of_shots_and_seconds_is_spent_by_either():
     assert shots == 60_000
     clock = Ticking()
     budget = Budget(Pace(), shots, seconds, clock)
+    assert budget.total == int(seconds * GUESS)
     clock.now = 0.6
     assert budget.spent > 1.0
     other = Budget(Pace(), shots, seconds, clock)
@@ -249,6 +301,18 @@ def test_a_budget_of_seconds_learns_how_far_it_goes():
     assert Budget(pace, 0, 0.5, clock).total == pytest.approx(50_000, rel=0.02)
 
 
+def test_a_stroke_tells_itself_how_far_its_seconds_go():
+    """From the first thousand shots on; a new agent on a fast machine uses its time on the first stroke already."""
+    clock = Ticking()
+    budget = Budget(Pace(), 0, 0.5, clock)
+    budget.charge(999)
+    clock.now = 0.001
+    assert budget.total == int(0.5 * GUESS)
+    budget.charge(1001)
+    clock.now = 0.01
+    assert budget.total == 100_000
+
+
 @pytest.mark.parametrize(
     "name",
     ["search:speed=1", "search:seconds=", "search:seconds=-1", "search:shots=0.5", "search:cpu=1", "greedy:seconds=1"],
@@ -269,15 +333,16 @@ def test_options_reach_the_agent():
 
 
 def test_the_race_is_a_chance_and_fewer_balls_are_better():
-    values = race(1.0)
-    grid = np.arange(1.0, 9.0)
-    seen = np.ones(8, bool)
-    worth = np.array([values.shooter(grid, np.full(8, other), np.full(8, 0.8), seen) for other in grid])
+    grid, values, shooter = np.arange(1.0, 9.0), race(1.0).values, geometry().shooter
+
+    def worths(chance):
+        return np.array([[shooter(values, needs, other, chance, True) for needs in grid] for other in grid])
+
+    worth = worths(0.8)
     assert ((worth >= 0.0) & (worth <= 1.0)).all()
     assert (np.diff(worth, axis=1) < 0.0).all()  # more to make
     assert (np.diff(worth, axis=0) > 0.0).all()  # the opponent has more to make
-    better = values.shooter(grid, grid, np.full(8, 0.95), seen)
-    assert (better >= values.shooter(grid, grid, np.full(8, 0.8), seen)).all()
+    assert (worths(0.95) >= worth).all()
 
 
 def test_pots_agree_with_plain_geometry():

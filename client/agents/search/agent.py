@@ -8,13 +8,13 @@ from client.agents.chance import generator
 from client.agents.search import breaks
 from client.agents.search.budget import Budget, Pace, allowance
 from client.agents.search.engine import geometry
-from client.agents.search.evaluate import Evaluator
+from client.agents.search.evaluate import Evaluator, Judge, Thinking, answered
 from client.agents.search.options import Options
 from client.agents.search.sight import Sight
 from client.agents.search.thinking import Thought, TurnSearch
 from client.agents.search.value import Values
 from protocol import View
-from referee import Action, Decision, EightBall, Game, Phase
+from referee import Action, CueBallArea, Decision, EightBall, Game, Phase
 
 USUAL_NOISE = 1.0
 """The level to reckon with when the game does not tell."""
@@ -50,13 +50,26 @@ class SearchAgent(Agent):
 
     def choose(self, view: View) -> Action:
         """The best stroke, or the decision that leads to the best position."""
+        return answered(self.thinking(view), self.judge())
+
+    @property
+    def counts_shots_alone(self) -> bool:
+        """Whether no clock limits it: then who else thinks meanwhile changes nothing."""
+        return self._options.shots > 0
+
+    def judge(self) -> Judge:
+        """What answers this agent's questions: the physics, counted, and the values of this game."""
+        return Judge(self._rules.table, self._values, self.simulator.simulate_batch)
+
+    def thinking(self, view: View) -> Thinking[Action]:
+        """The train of thought about a turn; its result is what `choose` answers."""
         game = view.to_game()
         if game.decisions:
-            return self._decision(game, view)
+            return (yield from self._decision(game, view))
         if game.phase is Phase.BREAK:
             return self._break(game)
         budget = self._budget(view)
-        thought = self._turn(game, budget).best()
+        thought = yield from self._turn(game, budget).best()
         budget.close()
         self.thoughts.append(thought)
         return thought.action
@@ -70,10 +83,9 @@ class SearchAgent(Agent):
         return Budget(self._pace, shots // parts, seconds / parts, clock)
 
     def _turn(self, game: Game, budget: Budget) -> TurnSearch:
-        evaluator = Evaluator(
-            self._rules.table, self._values, self._noise, self._chance, self.simulator.simulate_batch, budget
-        )
-        return TurnSearch(self._rules, game, evaluator, self._options)
+        kitchen = game.cue_ball_in_hand is CueBallArea.KITCHEN
+        evaluator = Evaluator(self._rules.table, self._values, self._noise, self._chance, budget, kitchen)
+        return TurnSearch(self._rules, game, evaluator, self._options, self._chance)
 
     def _break(self, game: Game) -> Action:
         """The studied break."""
@@ -82,15 +94,18 @@ class SearchAgent(Agent):
         place = best.places(table, game.state)[0]
         return Action(shot=best.stroke(table, game.state.moved(0, place)), cue_ball=place)
 
-    def _decision(self, game: Game, view: View) -> Action:
+    def _decision(self, game: Game, view: View) -> Thinking[Action]:
         """The decision after which this player stands best."""
-        worths = {each: self._worth_after(game, each, view) for each in game.decisions}
+        worths = {}
+        for each in game.decisions:
+            worths[each] = yield from self._worth_after(game, each, view)
         return Action(decision=max(worths, key=lambda each: worths[each]))
 
-    def _worth_after(self, game: Game, decision: Decision, view: View) -> float:
+    def _worth_after(self, game: Game, decision: Decision, view: View) -> Thinking[float]:
         if decision is Decision.OPPONENT_RERACKS:
             return 1.0 - breaks.worth_of_breaking(self._rules.table)
         ruling = self._rules.apply(game, Action(decision=decision), None, None)
         if ruling.rerack:
             return breaks.worth_of_breaking(self._rules.table)
-        return self._turn(ruling.game, self._budget(view, len(game.decisions))).best().worth
+        thought = yield from self._turn(ruling.game, self._budget(view, len(game.decisions))).best()
+        return thought.worth

@@ -6,8 +6,10 @@ from collections.abc import Callable
 
 from client.agents.search.options import LEAST_SECONDS, MOST_SHOTS, Options
 
-GUESS = 30_000.0
+GUESS = 60_000.0
 """Simulated shots a second, all work around them included, before anything was measured."""
+TELLING = 1000
+"""Simulated shots of a stroke from which on they tell how fast this one goes."""
 SMOOTHING = 0.3
 """Weight of the latest stroke in the measured speed."""
 SHARE = 0.06
@@ -31,6 +33,10 @@ def allowance(options: Options, seconds_left: float | None, shots_left: int | No
         fair = max(1, int(SHARE * shots_left))
         shots = min(shots, fair) if shots else fair
     return seconds, shots
+
+
+class TimeUp(Exception):
+    """The seconds of a stroke have passed: what was found until then is played."""
 
 
 class Pace:
@@ -69,13 +75,24 @@ class Budget:
     @property
     def total(self) -> int:
         """Shots that may be simulated in all, as far as that is known."""
-        return int(min(self._shots, self._seconds * self._pace.per_second, MOST_SHOTS))
+        return int(min(self._shots, self._seconds * self._per_second, MOST_SHOTS))
+
+    @property
+    def _per_second(self) -> float:
+        """How fast it goes: as seen in this stroke once that tells, before as in the strokes before."""
+        passed = self._clock() - self._started if self.is_timed and self.simulated >= TELLING else 0.0
+        return self.simulated / passed if passed > 0.0 else self._pace.per_second
 
     @property
     def spent(self) -> float:
         """The share of the budget that is used up; 1 and more when it is gone."""
-        by_time = (self._clock() - self._started) / self._seconds if self._seconds < math.inf else 0.0
+        by_time = (self._clock() - self._started) / self._seconds if self.is_timed else 0.0
         return max(by_time, self.simulated / self._shots)
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether seconds count."""
+        return self._seconds < math.inf
 
     def charge(self, shots: int) -> None:
         """So many shots were simulated."""
@@ -83,5 +100,5 @@ class Budget:
 
     def close(self) -> None:
         """The stroke is chosen: the pace is learnt from it."""
-        if self._seconds < math.inf:
+        if self.is_timed:
             self._pace.learn(self.simulated, self._clock() - self._started)

@@ -38,7 +38,10 @@ def _call_once(module: Any) -> None:
     row, positions = table_row(Table.olympiad()), np.full((1, 16, 2), np.nan)
     positions[0, :2] = (0.5, 1.0), (0.3, 0.5)
     one, flag, number = np.zeros(1), np.zeros(1, bool), np.zeros(1, np.int64)
-    module.survey(row, positions, 1e-3, flag, 0.0, np.empty((1, 2, 4)))
+    memory = module.new_memory()
+    module.survey(row, positions, 1e-3, flag, 0.0, memory, np.empty((1, 2, 5)))
+    shooters, race = (np.zeros(1, np.int8), flag), np.zeros((4, 2, 2))
+    module.worths(row, positions, positions, shooters, (1e-3, 0.0, 1.0, True), race, memory, np.empty(1))
     floats, integers = [np.zeros((1, 1)) for _ in range(3)], [np.zeros((1, 1), np.int64) for _ in range(2)]
     module.list_pots(row, positions, np.ones((1, 16), bool), 1e-3, (*integers, *floats))
     module.elevations(row, positions, number, (one, one, one), 0.1, one.copy())

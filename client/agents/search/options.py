@@ -29,6 +29,8 @@ class Options(Value):
             the same choices. 0: as many as fit into the seconds.
         cpu: count seconds of this process's processor time, not of the wall clock: for fair measurements.
         safeties: consider everything beside straight pots. ways: play a pot in many ways, not in two.
+        banks: aim banks, kicks, combinations and caroms, not only come upon them. jumps: over balls, where balls fly.
+        polish: look for better strokes near the best ones.
 
     Raises:
         FieldError: an option that does not exist, or a value that is not allowed.
@@ -39,3 +41,6 @@ class Options(Value):
     cpu: Switch = False
     safeties: Switch = True
     ways: Switch = True
+    banks: Switch = True
+    jumps: Switch = True
+    polish: Switch = True

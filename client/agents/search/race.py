@@ -10,9 +10,8 @@ import functools
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from client.agents.search.shots import Floats
+from client.agents.search.shots import HIDDEN, MADE, MISSED, SAFE, Floats
 
 MOST = 24
 """Perfect balls beyond which it makes no difference."""
@@ -87,15 +86,16 @@ def _between(low: Habits, high: Habits, share: float) -> Habits:
 
 
 class Race:
-    """The chain's values as tables over (balls the shooter needs, balls the opponent needs)."""
+    """The chain's values as tables over (balls the shooter needs, balls the opponent needs).
+
+    Attributes:
+        values: (4, MOST + 1, MOST + 1), MADE and its fellows, looked up by `compiled.kernels.shooter`.
+    """
 
     def __init__(self, habits: Habits) -> None:
         self.habits = habits
-        self._made = np.full((MOST + 1, MOST + 1), 0.5)
-        """The shooter has just made a ball, and needs so many more."""
-        self._missed, self._safe, self._hidden = (np.full((MOST + 1, MOST + 1), 0.5) for _ in range(3))
-        """The shooter misses; plays safe; plays safe without seeing a ball."""
-        self._made[0] = 1.0
+        self.values: Floats = np.full((4, MOST + 1, MOST + 1), 0.5)
+        self.values[MADE, 0] = 1.0
         for _ in range(ROUNDS):
             self._iterate()
 
@@ -105,45 +105,22 @@ class Race:
         against_miss = 1.0 - self._mixed(one.after_miss).T
         against_safety = 1.0 - self._mixed(one.after_safety).T
         against_foul = 1.0 - self._facing(one.in_hand).T
-        self._missed = (1.0 - one.foul_on_miss) * against_miss + one.foul_on_miss * against_foul
-        self._safe = (1.0 - one.foul_on_safety) * against_safety + one.foul_on_safety * against_foul
-        self._hidden = (1.0 - one.foul_when_hidden) * against_miss + one.foul_when_hidden * against_foul
-        self._made[1:] = self._facing(one.after_pot)[1:]
+        self.values[MISSED] = (1.0 - one.foul_on_miss) * against_miss + one.foul_on_miss * against_foul
+        self.values[SAFE] = (1.0 - one.foul_on_safety) * against_safety + one.foul_on_safety * against_foul
+        self.values[HIDDEN] = (1.0 - one.foul_when_hidden) * against_miss + one.foul_when_hidden * against_foul
+        self.values[MADE, 1:] = self._facing(one.after_pot)[1:]
 
     def _mixed(self, mixture: Mixture) -> Floats:
         """The shooter faces one of several chances."""
-        total = np.zeros_like(self._made)
+        total: Floats = np.zeros((MOST + 1, MOST + 1))
         for chance, share in mixture:
             total += share * self._facing(chance)
         return total
 
     def _facing(self, chance: float) -> Floats:
         """The shooter faces a pot of this chance; a table for every (needs, opponent needs)."""
-        after = np.vstack((self._made[:1], self._made[:-1]))
-        worth: Floats = np.maximum(chance * after + (1.0 - chance) * self._missed, self._safe)
+        made, missed, safe = self.values[MADE], self.values[MISSED], self.values[SAFE]
+        after = np.vstack((made[:1], made[:-1]))
+        worth: Floats = np.maximum(chance * after + (1.0 - chance) * missed, safe)
         worth[0] = 1.0
         return worth
-
-    def shooter(self, needs: Floats, other: Floats, chance: Floats, seen: NDArray[np.bool_]) -> Floats:
-        """What the shooter's chance to win the game is, (n,).
-
-        Args:
-            needs, other: perfect balls that the shooter and the opponent need, >= 0, the 8 included.
-            chance: of the shooter's best pot. seen: whether any ball can be struck straight.
-        """
-        made = looked_up(self._made, needs - 1.0, other)
-        missed = looked_up(self._missed, needs, other)
-        safe = np.where(seen, looked_up(self._safe, needs, other), looked_up(self._hidden, needs, other))
-        worth: Floats = np.maximum(chance * made + (1.0 - chance) * missed, safe)
-        return worth
-
-
-def looked_up(table: Floats, row: Floats, column: Floats) -> Floats:
-    """A table's values between its entries, bilinear; beyond its edges the edge's."""
-    row, column = np.clip(row, 0.0, MOST), np.clip(column, 0.0, MOST)
-    i, j = np.minimum(row.astype(np.int64), MOST - 1), np.minimum(column.astype(np.int64), MOST - 1)
-    s, t = row - i, column - j
-    low = (1.0 - t) * table[i, j] + t * table[i, j + 1]
-    high = (1.0 - t) * table[i + 1, j] + t * table[i + 1, j + 1]
-    found: Floats = (1.0 - s) * low + s * high
-    return found

@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from client.agents.search.evaluate import Evaluator
-from client.agents.search.shots import PHI, Integers, Shots
+from client.agents.search.evaluate import Evaluator, Thinking
+from client.agents.search.shots import PHI, Floats, Integers, Shots
 from physics import Batch
 from physics.facts import NEVER
 
@@ -20,17 +20,24 @@ OVERLAP = 1.25
 """The directions tried reach that far beyond the margin that geometry gives."""
 
 
-def centred(evaluator: Evaluator, shots: Shots, tries: int) -> Shots:
-    """The strokes that pot their ball, each in the middle of the directions that do; its margin is what was found.
+def centred(evaluator: Evaluator, shots: Shots, tries: int) -> Thinking[Shots]:
+    """Straight pots, each in the middle of the directions that pot its ball; its margin is what was found.
 
     Args:
-        shots: straight pots. tries: directions to simulate for each, odd.
+        tries: directions to simulate for each, odd.
     """
     widest = WIDEST * np.degrees(evaluator.values.sight.sigma)
-    reach = OVERLAP * np.minimum(shots.margin, widest)
+    return (yield from in_the_middle(evaluator, shots, OVERLAP * np.minimum(shots.margin, widest), tries))
+
+
+def in_the_middle(evaluator: Evaluator, shots: Shots, reach: Floats, tries: int) -> Thinking[Shots]:
+    """Strokes in the middle of the directions, `reach` (deg) to either side, that make the call; the others go."""
+    if not len(shots):
+        return shots
     offsets = reach[:, None] * np.linspace(-1.0, 1.0, tries)[None, :]
     spread = shots[np.repeat(np.arange(len(shots)), tries)]
-    batch = evaluator.simulated(spread.aimed(spread.strokes[:, PHI] + offsets.reshape(-1)))
+    spread = spread.aimed(spread.strokes[:, PHI] + offsets.reshape(-1))
+    batch = yield from evaluator.simulated(spread)
     made = falls(spread, batch).reshape(len(shots), tries)
     first, last = longest_run(made)
     rows = np.arange(len(shots))

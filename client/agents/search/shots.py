@@ -12,10 +12,14 @@ Groups = NDArray[np.int8]
 V, PHI, THETA, A, B = range(5)
 """Columns of a stroke, as the physics takes them: m/s, deg, deg, mm, mm."""
 
-CHANCE, SEEN, LAYOUT, PLACED = range(4)
+CHANCE, SEEN, LAYOUT, PLACED, EVEN = range(5)
 """Columns of a survey, what a table offers to a group: chance of its best pot; 1 if any of its balls can be struck
-straight; how hard its layout is, minus the sum of the logarithms of its balls' chances; chance with ball in hand."""
+straight; how hard its layout is, minus the sum of the logarithms of its balls' chances; chance with ball in hand; what
+the best pot takes to either side alike, rad."""
 
+MADE, MISSED, SAFE, HIDDEN = range(4)
+"""Tables of a race: the shooter has just made a ball and needs so many more; misses; plays safe; plays safe without
+seeing a ball."""
 
 WIDTH, LENGTH, RADIUS, NOSE, CUE_LENGTH, MOUTHS = range(6)
 """Places in the row of a table (`engine.table_row`), m; from MOUTHS on, PER_POCKET numbers a pocket:"""

@@ -1,11 +1,13 @@
 """What the balls of many tables offer: straight pots and their chances, the elevation a stroke needs."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from client.agents.search import engine
+from client.agents.search.race import Race
 from client.agents.search.shots import PHI, THETA, Floats, Integers, Shots, Tables
 from client.geometry.strokes import azimuths
 from physics import Table
@@ -37,6 +39,18 @@ class Pots:
     chance: Floats
 
 
+@dataclass(frozen=True, slots=True)
+class Terms:
+    """How tables are valued.
+
+    Attributes:
+        kitchen: m, the least y of a cue ball in hand. pots: False: the shooter pots nothing.
+    """
+
+    kitchen: float = 0.0
+    pots: bool = True
+
+
 class Sight:
     """Plane geometry on one table under one level of noise."""
 
@@ -44,14 +58,31 @@ class Sight:
         self._kernels = engine.geometry(table.has_jaws)
         self._table = table
         self._row = engine.table_row(table)
-        self._theta_max = min(HIGHEST, table.theta_max)
         self._slack = SIGMAS_FREE * noise
         self.sigma = float(np.radians(SIGMA_PHI) * max(noise, LEAST_NOISE))
 
     def survey(self, positions: Floats, hand: NDArray[np.bool_], kitchen: float = 0.0) -> Floats:
-        """(n, 2, 4): what each table offers to either group; the columns are CHANCE and its fellows."""
-        found = np.empty((len(positions), 2, 4))
-        self._kernels.survey(self._row, np.ascontiguousarray(positions), self.sigma, hand, kitchen, found)
+        """(n, 2, 5): what each table offers to either group; the columns are CHANCE and its fellows."""
+        found = np.empty((len(positions), 2, 5))
+        self._kernels.survey(
+            self._row, np.ascontiguousarray(positions), self.sigma, hand, kitchen, self._kernels.new_memory(), found
+        )
+        return found
+
+    def worths(self, tables: Tables, before: Floats, hand: NDArray[np.bool_], race: Race, terms: Terms) -> Floats:
+        """(n,): what each table is worth to its shooter in a race.
+
+        Args:
+            before: (n, 16, 2) m, the tables before the stroke that led there: those alike cost less.
+            hand: (n,) whether the cue ball is in hand.
+        """
+        found = np.empty(len(tables))
+        shooters = (np.ascontiguousarray(tables.group, np.int8), hand)
+        given = (self.sigma, terms.kitchen, -math.log(race.habits.after_pot), terms.pots)
+        positions = np.ascontiguousarray(tables.positions)
+        memory = self._kernels.new_memory()
+        before = np.ascontiguousarray(before)
+        self._kernels.worths(self._row, before, positions, shooters, given, race.values, memory, found)
         return found
 
     def pots(self, tables: Tables, most: int, targets: NDArray[np.bool_] | None = None) -> Pots:
@@ -84,14 +115,23 @@ class Sight:
         leaving = np.degrees(np.arctan2(way[:, 1], way[:, 0]))
         return self.raised(shots.aimed(azimuths(self._table, cue, ball, leaving, shots.strokes)))
 
-    def raised(self, shots: Shots) -> Shots:
-        """The strokes with the cue raised as far as it has to be; those that cannot be played are left out."""
+    def raised(self, shots: Shots, extra: Floats | float = 0.0) -> Shots:
+        """The strokes with the cue raised as far as it has to be; those that cannot be played are left out.
+
+        Args:
+            extra: degrees beyond that, for jump shots.
+        """
         strokes = shots.strokes.copy()
-        _, phi, _, a, b = strokes.T
+        strokes[:, THETA] = self.least(shots) + extra
+        highest = np.where(np.asarray(extra) > 0.0, self._table.theta_max, min(HIGHEST, self._table.theta_max))
+        return replace(shots, strokes=strokes)[strokes[:, THETA] <= highest]
+
+    def least(self, shots: Shots) -> Floats:
+        """(k,) deg: the least elevation that leaves the cue free under the noise; NaN where none does."""
+        _, phi, _, a, b = shots.strokes.T
         theta = np.empty(len(shots))
         columns = (phi.copy(), a.copy(), b - self._slack * SIGMA_B)
         positions = np.ascontiguousarray(shots.tables.positions)
-        aside = self._slack * SIGMA_PHI
-        self._kernels.elevations(self._row, positions, shots.table, columns, aside, theta)
-        strokes[:, THETA] = theta + self._slack * SIGMA_THETA + ROOM
-        return replace(shots, strokes=strokes)[strokes[:, THETA] <= self._theta_max]
+        self._kernels.elevations(self._row, positions, shots.table, columns, self._slack * SIGMA_PHI, theta)
+        least: Floats = theta + self._slack * SIGMA_THETA + ROOM
+        return least

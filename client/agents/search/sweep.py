@@ -1,4 +1,5 @@
-"""Everything but straight pots: strokes at every ball that may be struck, thin to full, straight and off a cushion.
+"""Everything but straight pots: strokes at every ball that may be struck, thin to full, straight, off a cushion, or
+over the balls in the way.
 
 What such a stroke is called is seen from what it does: if it sends a ball that may be called into a pocket, that ball
 (a bank, a combination, a kick, a plant); else it is a safety.
@@ -10,8 +11,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from client.agents.search.evaluate import Evaluator
-from client.agents.search.shots import Floats, Shots, Tables
+from client.agents.search.evaluate import Evaluator, Thinking
+from client.agents.search.jumps import leaps, uncalled
+from client.agents.search.shots import PHI, B, Floats, Shots, Tables, V
 from physics import Batch, Table
 from physics.facts import NEVER
 from referee.rules.batch_rulings import SAFETY_CALL, target_balls
@@ -64,19 +66,25 @@ def _kicks(table: Table, cue: Floats, ball: Floats) -> list[float]:
     return found
 
 
-def sweep(evaluator: Evaluator, tables: Tables, each: int) -> Shots:
-    """Strokes on the first of `tables`, called by what they do without noise."""
+def sweep(evaluator: Evaluator, tables: Tables, each: int, jumps: bool) -> Thinking[Shots]:
+    """Strokes on the first of `tables`, called by what they do without noise.
+
+    Args:
+        each: directions for a ball. jumps: whether strokes over balls in the way are among them.
+    """
     targets = target_balls(tables.positions[:1], tables.group[:1])[0]
     phi = directions(evaluator.table, tables.positions[0], targets, each)
     count = len(phi) * len(SPEEDS)
-    heights = np.resize(np.array(HEIGHTS), count)
     strokes = np.zeros((count, 5))
-    strokes[:, 0], strokes[:, 1] = np.tile(SPEEDS, len(phi)), np.repeat(phi, len(SPEEDS))
-    strokes[:, 4] = heights
-    nothing = np.full(count, SAFETY_CALL)
-    shots = Shots(tables, np.zeros(count, np.int64), strokes, nothing, nothing, np.zeros(count))
-    shots = evaluator.values.sight.raised(shots)
-    return called(shots, evaluator.simulated(shots), targets) if len(shots) else shots
+    strokes[:, V], strokes[:, PHI] = np.tile(SPEEDS, len(phi)), np.repeat(phi, len(SPEEDS))
+    strokes[:, B] = np.resize(np.array(HEIGHTS), count)
+    shots = evaluator.values.sight.raised(uncalled(tables, strokes))
+    if jumps:
+        shots = shots.joined(leaps(evaluator, tables, targets))
+    if not len(shots):
+        return shots
+    batch = yield from evaluator.simulated(shots)
+    return called(shots, batch, targets)
 
 
 def called(shots: Shots, batch: Batch, targets: NDArray[np.bool_]) -> Shots:

@@ -25,13 +25,15 @@ PLACED_REACH = 0.25
 BLOCKED = 0.8
 """Chance that a ball no pocket is open for will be made when its turn comes: others move by then, or it is banked."""
 
-HALVINGS = 14
-"""Of the angle in which the edge of an entrance is looked for: some 1e-5 rad."""
+STEPS, CLOSE = 20, 1e-6
+"""The edge of an entrance is looked for in so many steps at most, and to so many metres; four to six do."""
 NARROWEST, WIDEST = 5e-5, 1.0
 """rad to either side: an entrance that is narrower is closed; a ball that hangs in the jaws may go anywhere."""
 
-compiled = numba.njit(error_model="numpy", nogil=True, cache=bool(numba.config.CACHE_DIR))
-inner = numba.njit(error_model="numpy", nogil=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+BARE = {"error_model": "numpy", "nogil": True, "_nrt": False}
+"""Nothing is allocated here, so nobody has to count who holds an array: counting took more time than the geometry."""
+compiled = numba.njit(cache=bool(numba.config.CACHE_DIR), **BARE)
+inner = numba.njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **BARE)
 
 
 class Layout(NamedTuple):
@@ -59,11 +61,55 @@ class Fan(NamedTuple):
 
 
 class Lane(NamedTuple):
-    """The way of an object ball into a pocket: unit (ux, uy), and by how much it may turn."""
+    """The way of an object ball into a pocket: unit (ux, uy), by how much it may turn, and how far it is, m."""
 
     ux: float
     uy: float
     fan: Fan
+    run: float
+
+
+class Memory(NamedTuple):
+    """What pockets open to balls at rest: after most strokes most balls lie where they lay before.
+
+    ``rest`` (16, 2) m, where; ``lanes`` (16, 6, 8), columns UX and its fellows; ``bounds`` (16, 6, 2), which balls
+    narrow them, 0 for none; ``moved`` (16,), which balls lie elsewhere in the row at hand; ``movers`` (17,), the same
+    as a list, its length first; ``offers`` (2, 5) and ``needs`` (2,), of both groups in the row at hand.
+    """
+
+    rest: Any
+    lanes: Any
+    bounds: Any
+    moved: Any
+    movers: Any
+    offers: Any
+    needs: Any
+
+
+def new_memory():
+    """Nothing known yet: no ball lies at rest."""
+    return Memory(
+        rest=np.full((16, 2), np.nan),
+        lanes=np.zeros((16, 6, 8)),
+        bounds=np.zeros((16, 6, 2), np.int64),
+        moved=np.zeros(16, np.bool_),
+        movers=np.zeros(17, np.int64),
+        offers=np.zeros((2, 5)),
+        needs=np.zeros(2),
+    )
+
+
+UX, UY, LOW, HIGH, RUN, LEFT_LOW, LEFT_HIGH, EASE = range(8)
+"""Columns of a lane: unit; bounds of what the pocket takes, rad; length, m; bounds of what other balls leave of it;
+chance of the pot from where good position play leaves the cue ball."""
+
+
+class Task(NamedTuple):
+    """What to find about a group: whether its player shoots next, with the cue ball in hand, from which y on."""
+
+    shoots: bool
+    hand: bool
+    kitchen: float
 
 
 class LevelCue(NamedTuple):
@@ -86,38 +132,41 @@ def normal_between(fan, sigma):
 
 
 @inner
-def narrowed(view, ball, skip, way, fan, gain):
-    """A fan narrowed by the balls beside a way; turning the way by e moves it at distance s by s gain e.
+def beside(view, other, way, fan, gain):
+    """A fan narrowed by a ball beside a way; turning the way by e moves it at distance s by s gain e.
 
-    A negative `gain` turns the other way. `ball` and `skip` do not count.
+    A negative `gain` turns the other way. Low = high: the ball lies in the way.
     """
-    low, high = fan
+    dx, dy = view.row[other, 0] - way.x, view.row[other, 1] - way.y
+    along, aside = dx * way.ux + dy * way.uy, way.ux * dy - way.uy * dx  # aside is positive to the left
     reach = 2.0 * view.table[at.RADIUS]
+    wide = max(fan.high, -fan.low) * abs(gain)
+    # One test that most balls fail, absent ones (NaN) too: processors guess it, and the others would cost as much each.
+    if not ((along > 0.0) & (along < way.run + reach) & (abs(aside) < reach + wide * along)):
+        return fan
+    room = reach
+    if along > way.run:
+        over = along - way.run
+        room = math.sqrt(reach * reach - over * over)
+        along = way.run
+    gap = abs(aside) - room
+    if gap <= 0.0:
+        return Fan(0.0, 0.0)
+    bound = gap / (along * abs(gain))
+    if (aside > 0.0) == (gain > 0.0):
+        return Fan(fan.low, min(fan.high, bound))
+    return Fan(max(fan.low, -bound), fan.high)
+
+
+@inner
+def narrowed(view, ball, skip, way, fan, gain):
+    """A fan narrowed by all balls beside a way but `ball` and `skip`."""
     for other in range(16):
-        if other in (ball, skip):
-            continue
-        dx, dy = view.row[other, 0] - way.x, view.row[other, 1] - way.y
-        along = dx * way.ux + dy * way.uy
-        if not (along > 0.0):  # behind, or absent (NaN)
-            continue
-        aside = way.ux * dy - way.uy * dx  # positive: to the left
-        if along > way.run:
-            over = along - way.run
-            if over >= reach:
-                continue
-            room = math.sqrt(reach * reach - over * over)
-            along = way.run
-        else:
-            room = reach
-        gap = abs(aside) - room
-        if gap <= 0.0:
-            return Fan(0.0, 0.0)
-        bound = gap / (along * abs(gain))
-        if (aside > 0.0) == (gain > 0.0):
-            high = min(high, bound)
-        else:
-            low = max(low, -bound)
-    return Fan(low, high)
+        if other != ball and other != skip:
+            fan = beside(view, other, way, fan, gain)
+            if fan.low >= fan.high:
+                return Fan(0.0, 0.0)
+    return fan
 
 
 @inner
@@ -135,18 +184,25 @@ def edge_of(table, entrance, edges, bearing, far):
     first, step, count = table[entrance + at.FIRST], table[entrance + at.STEP], int(table[entrance + at.COUNT])
     turn = math.asin(min(1.0, table[entrance + at.REACH] / far))
     left, right = bearing - turn, bearing + turn
-    for _ in range(HALVINGS):
-        middle = 0.5 * (left + right)
-        if far * math.sin(middle - bearing) < offset_of(table, edges, first, step, count, middle):
-            left = middle
+    before = far * math.sin(left - bearing) - offset_of(table, edges, first, step, count, left)
+    after = far * math.sin(right - bearing) - offset_of(table, edges, first, step, count, right)
+    for _ in range(STEPS):  # regula falsi; an end that stays counts half (the Illinois rule)
+        if before >= 0.0 or after <= 0.0 or right - left < NARROWEST:
+            break
+        middle = (left * after - right * before) / (after - before)
+        aside = far * math.sin(middle - bearing) - offset_of(table, edges, first, step, count, middle)
+        if abs(aside) < CLOSE:
+            return middle
+        if aside < 0.0:
+            left, before, after = middle, aside, 0.5 * after
         else:
-            right = middle
+            right, after, before = middle, aside, 0.5 * before
     return 0.5 * (left + right)
 
 
 @inner
 def between_jaws(view, ball, place):
-    """`to_pocket` on a table with jaws: the middle of the directions in which the ball falls, and half of them."""
+    """`opened` on a table with jaws: the middle of the directions in which the ball falls, and half of them."""
     table = view.table
     entrance = int(table[place + at.ENTRANCE])
     x, y = view.row[ball, 0], view.row[ball, 1]
@@ -161,14 +217,14 @@ def between_jaws(view, ball, place):
     c, s = math.cos(turn), math.sin(turn)
     ux, uy = c * in_x - s * in_y, s * in_x + c * in_y
     if half <= NARROWEST:
-        return Lane(ux, uy, Fan(0.0, 0.0))
+        return Lane(ux, uy, Fan(0.0, 0.0), 0.0)
     run = max((table[place + at.MOUTH_X] - x) * ux + (table[place + at.MOUTH_Y] - y) * uy, table[at.RADIUS])
-    return Lane(ux, uy, narrowed(view, ball, 0, Way(x, y, ux, uy, run), Fan(-half, half), 1.0))
+    return Lane(ux, uy, Fan(-half, half), run)
 
 
 @inner
-def to_pocket(view, ball, pocket):
-    """The lane of an object ball into a pocket; its fan is closed if it is blocked."""
+def opened(view, ball, pocket):
+    """The lane that a pocket opens to an object ball, whatever lies beside it; its fan is closed if none is open."""
     table = view.table
     place = at.MOUTHS + at.PER_POCKET * pocket
     x, y = view.row[ball, 0], view.row[ball, 1]
@@ -177,13 +233,28 @@ def to_pocket(view, ball, pocket):
     dx, dy = table[place + at.MOUTH_X] - x, table[place + at.MOUTH_Y] - y
     run = math.sqrt(dx * dx + dy * dy)
     if run < 1e-9:
-        return Lane(1.0, 0.0, Fan(-1.0, 1.0))
+        return Lane(1.0, 0.0, Fan(-1.0, 1.0), 0.0)
     ux, uy = dx / run, dy / run
     facing = -(ux * table[place + at.INWARD_X] + uy * table[place + at.INWARD_Y])
     if facing <= 0.05:
-        return Lane(ux, uy, Fan(0.0, 0.0))
+        return Lane(ux, uy, Fan(0.0, 0.0), run)
     bound = math.atan2(table[place + at.HALF_MOUTH] * facing, run)
-    return Lane(ux, uy, narrowed(view, ball, 0, Way(x, y, ux, uy, run), Fan(-bound, bound), 1.0))
+    return Lane(ux, uy, Fan(-bound, bound), run)
+
+
+@inner
+def unblocked(view, ball, lane):
+    """A lane narrowed by the balls beside it."""
+    if lane.fan.low >= lane.fan.high or lane.run == 0.0:
+        return lane
+    way = Way(view.row[ball, 0], view.row[ball, 1], lane.ux, lane.uy, lane.run)
+    return Lane(lane.ux, lane.uy, narrowed(view, ball, 0, way, lane.fan, 1.0), lane.run)
+
+
+@inner
+def to_pocket(view, ball, pocket):
+    """The lane of an object ball into a pocket; its fan is closed if it is blocked."""
+    return unblocked(view, ball, opened(view, ball, pocket))
 
 
 @inner
@@ -193,21 +264,38 @@ def turned_by(fan, gain):
 
 
 @inner
-def straight(view, ball, lane, sigma):
-    """A pot from where the cue ball lies: (chance, phi, half the margin), rad; chance 0 when it cannot be played."""
+def half_of(fan):
+    """Half of what a fan takes."""
+    return 0.5 * (fan.high - fan.low)
+
+
+@inner
+def even_of(fan):
+    """What a fan takes to either side alike: one that takes no more in all is no likelier."""
+    return min(-fan.low, fan.high)
+
+
+@inner
+def straight(view, ball, lane, least):
+    """A pot from where the cue ball lies: its direction, rad, and the fan of errors that still pot it.
+
+    The fan is closed when it cannot be played, and when half of it is no more than `least` to begin with.
+    """
     row, radius = view.row, view.table[at.RADIUS]
     gx, gy = row[ball, 0] - 2.0 * radius * lane.ux, row[ball, 1] - 2.0 * radius * lane.uy
     dx, dy = gx - row[0, 0], gy - row[0, 1]
     reach = math.sqrt(dx * dx + dy * dy)
     if reach < 1e-6:
-        return 0.99, math.atan2(lane.uy, lane.ux), 0.05
+        return math.atan2(lane.uy, lane.ux), Fan(-0.05, 0.05)
     vx, vy = dx / reach, dy / reach
     cut = vx * lane.ux + vy * lane.uy
     if cut < STEEPEST:
-        return 0.0, 0.0, 0.0
+        return 0.0, Fan(0.0, 0.0)
     gain = reach / (2.0 * radius * cut)
-    fan = narrowed(view, 0, ball, Way(row[0, 0], row[0, 1], vx, vy, reach), turned_by(lane.fan, gain), 1.0)
-    return normal_between(fan, sigma), math.atan2(vy, vx), 0.5 * (fan.high - fan.low)
+    fan = turned_by(lane.fan, gain)
+    if half_of(fan) <= least:
+        return 0.0, Fan(0.0, 0.0)
+    return math.atan2(vy, vx), narrowed(view, 0, ball, Way(row[0, 0], row[0, 1], vx, vy, reach), fan, 1.0)
 
 
 @inner
@@ -242,19 +330,25 @@ def is_place(view, x, y, kitchen):
 
 
 @inner
-def placed(view, ball, lane, sigma, kitchen):
-    """Chance of a pot with the cue ball in hand: from straight behind, or a little to either side."""
-    row, radius, best = view.row, view.table[at.RADIUS], 0.0
+def placed(view, ball, lane, least, kitchen):
+    """The widest fan of a pot with the cue ball in hand, from straight behind or a little to either side.
+
+    Closed when half of none is more than `least`.
+    """
+    row, radius, best = view.row, view.table[at.RADIUS], Fan(0.0, 0.0)
     gx, gy = row[ball, 0] - 2.0 * radius * lane.ux, row[ball, 1] - 2.0 * radius * lane.uy
     for turn in (0.0, 0.5, -0.5):
         c, s = math.cos(turn), math.sin(turn)
+        gain = PLACED_REACH / (2.0 * radius * c)
+        fan = turned_by(lane.fan, gain)
+        if half_of(fan) <= max(least, even_of(best)):
+            continue
         vx, vy = c * lane.ux - s * lane.uy, s * lane.ux + c * lane.uy
         x, y = gx - PLACED_REACH * vx, gy - PLACED_REACH * vy
-        if not is_place(view, x, y, kitchen):
-            continue
-        gain = PLACED_REACH / (2.0 * radius * c)
-        fan = narrowed(view, 0, ball, Way(x, y, vx, vy, PLACED_REACH), turned_by(lane.fan, gain), 1.0)
-        best = max(best, normal_between(fan, sigma))
+        if is_place(view, x, y, kitchen):
+            fan = narrowed(view, 0, ball, Way(x, y, vx, vy, PLACED_REACH), fan, 1.0)
+            if even_of(fan) > even_of(best):
+                best = fan
     return best
 
 
@@ -266,54 +360,197 @@ def usual(table, fan, sigma):
 
 
 @inner
-def survey_ball(view, ball, sigma, hand, kitchen, out):
-    """Add one ball to what is known of its group: best pots, difficulty."""
-    own, easy = 0.0, 0.0
+def is_elsewhere(one, other, ball):
+    """Whether a ball lies elsewhere in two rows, or is absent from one of them."""
+    x, y, u, v = one[ball, 0], one[ball, 1], other[ball, 0], other[ball, 1]
+    return (x != u or y != v) and (x == x or u == u)
+
+
+@inner
+def learn_lane(view, memory, ball, pocket, sigma):
+    """What a pocket opens to a ball at rest, and which balls narrow it."""
+    lane = opened(view, ball, pocket)
+    low, high, fan = 0, 0, lane.fan
+    if fan.low < fan.high and lane.run > 0.0:
+        way = Way(view.row[ball, 0], view.row[ball, 1], lane.ux, lane.uy, lane.run)
+        for other in range(1, 16):
+            if other == ball:
+                continue
+            left = beside(view, other, way, fan, 1.0)
+            if left.low >= left.high:
+                low, high, fan = other, other, Fan(0.0, 0.0)
+                break
+            if left.low != fan.low:
+                low = other
+            if left.high != fan.high:
+                high = other
+            fan = left
+    kept = memory.lanes[ball, pocket]
+    kept[UX], kept[UY], kept[LOW], kept[HIGH], kept[RUN] = lane.ux, lane.uy, lane.fan.low, lane.fan.high, lane.run
+    kept[LEFT_LOW], kept[LEFT_HIGH] = fan
+    kept[EASE] = usual(view.table, fan, sigma) if fan.low < fan.high else 0.0
+    memory.bounds[ball, pocket, 0], memory.bounds[ball, pocket, 1] = low, high
+
+
+@inner
+def remember(table, memory, before, row, sigma):
+    """Learn where balls lay before a stroke, if that is new, and which of them it moved."""
+    new = False
+    for ball in range(1, 16):
+        new = new or is_elsewhere(memory.rest, before, ball)
+    if new:
+        for ball in range(16):
+            memory.rest[ball, 0], memory.rest[ball, 1] = before[ball, 0], before[ball, 1]
+        for ball in range(1, 16):
+            if before[ball, 0] == before[ball, 0]:
+                for pocket in range(6):
+                    learn_lane(Layout(table, memory.rest), memory, ball, pocket, sigma)
+    count = 0
+    for ball in range(1, 16):
+        memory.moved[ball] = is_elsewhere(memory.rest, row, ball)
+        if memory.moved[ball]:
+            count += 1
+            memory.movers[count] = ball
+    memory.movers[0] = count
+
+
+@inner
+def lane_now(view, memory, ball, pocket):
+    """`to_pocket`, from memory as far as it goes; and whether it is as it was."""
+    if memory.moved[ball]:
+        return to_pocket(view, ball, pocket), False
+    kept = memory.lanes[ball, pocket]
+    fan = Fan(kept[LEFT_LOW], kept[LEFT_HIGH])
+    if kept[LOW] >= kept[HIGH] or kept[RUN] == 0.0:
+        return Lane(kept[UX], kept[UY], fan, kept[RUN]), True
+    way = Way(view.row[ball, 0], view.row[ball, 1], kept[UX], kept[UY], kept[RUN])
+    bounds = memory.bounds[ball, pocket]
+    if memory.moved[bounds[0]] or memory.moved[bounds[1]]:
+        return Lane(kept[UX], kept[UY], narrowed(view, ball, 0, way, Fan(kept[LOW], kept[HIGH]), 1.0), kept[RUN]), False
+    for place in range(1, memory.movers[0] + 1):
+        if fan.low < fan.high:
+            fan = beside(view, memory.movers[place], way, fan, 1.0)
+    same = fan.low == kept[LEFT_LOW] and fan.high == kept[LEFT_HIGH]
+    return Lane(kept[UX], kept[UY], fan, kept[RUN]), same
+
+
+@inner
+def survey_ball(view, memory, ball, sigma, task, out):
+    """Add one ball to what is known of its group: its difficulty, and if its player shoots next, best pots."""
+    easy, even = 0.0, 0.0
+    column = at.PLACED if task.hand else at.CHANCE
     for pocket in range(6):
-        lane = to_pocket(view, ball, pocket)
+        lane, same = lane_now(view, memory, ball, pocket)
         if lane.fan.low >= lane.fan.high:
             continue
-        easy = max(easy, usual(view.table, lane.fan, sigma))
-        if hand:
-            out[at.PLACED] = max(out[at.PLACED], placed(view, ball, lane, sigma, kitchen))
+        if same:
+            easy = max(easy, memory.lanes[ball, pocket, EASE])
+        elif half_of(lane.fan) > even:  # else it is no easier than another
+            chance = usual(view.table, lane.fan, sigma)
+            if chance > easy:
+                easy, even = chance, even_of(lane.fan)
+        if not task.shoots:
+            continue
+        if task.hand:
+            fan = placed(view, ball, lane, out[at.EVEN], task.kitchen)
         else:
-            chance, _, _ = straight(view, ball, lane, sigma)
-            own = max(own, chance)
-    out[at.CHANCE] = max(out[at.CHANCE], own)
+            _, fan = straight(view, ball, lane, out[at.EVEN])
+        if half_of(fan) > out[at.EVEN]:
+            chance = normal_between(fan, sigma)
+            if chance > out[column]:
+                out[column], out[at.EVEN] = chance, max(out[at.EVEN], even_of(fan))
     out[at.LAYOUT] -= math.log(max(easy, BLOCKED))
-    if not hand and out[at.SEEN] == 0.0 and (own > 0.0 or is_seen(view, ball)):
+    if task.shoots and not task.hand and out[at.SEEN] == 0.0 and (out[at.CHANCE] > 0.0 or is_seen(view, ball)):
         out[at.SEEN] = 1.0
 
 
+@inner
+def survey_group(view, memory, group, sigma, task, out):
+    """What the balls of a group offer; the 8 counts as one to be made later, and at once if no other is left."""
+    out[:] = 0.0
+    left = 0
+    for ball in range(1 + 8 * group, 8 + 8 * group):
+        if view.row[ball, 0] == view.row[ball, 0]:
+            left += 1
+            survey_ball(view, memory, ball, sigma, task, out)
+    if view.row[8, 0] == view.row[8, 0]:
+        survey_ball(view, memory, 8, sigma, Task(task.shoots and left == 0, task.hand, task.kitchen), out)
+        left += 1
+    return left
+
+
 @compiled
-def survey(table, positions, sigma, hand, kitchen, out):
+def survey(table, positions, sigma, hand, kitchen, memory, out):
     """What the balls offer to whoever shoots next, by group.
 
     Args:
         sigma: rad, of the cue's direction.
         hand: (n,) whether the cue ball is in hand. kitchen: the least y it may have then.
-        out: (n, 2, 4), solids and stripes; see CHANCE and its fellows. The 8 counts for a group that has no other ball.
+        memory: `new_memory`.
+        out: (n, 2, 5), solids and stripes; see CHANCE and its fellows.
     """
-    out[:] = 0.0
     for n in range(positions.shape[0]):
         view = Layout(table, positions[n])
-        row = view.row
+        remember(table, memory, positions[n], positions[n], sigma)
         for group in range(2):
-            mine = out[n, group]
-            left = 0
-            for ball in range(1 + 8 * group, 8 + 8 * group):
-                if row[ball, 0] == row[ball, 0]:
-                    left += 1
-                    survey_ball(view, ball, sigma, hand[n], kitchen, mine)
-            if row[8, 0] != row[8, 0]:
-                continue
-            if left == 0:
-                survey_ball(view, 8, sigma, hand[n], kitchen, mine)
-            else:
-                easy = 0.0
-                for pocket in range(6):
-                    easy = max(easy, usual(table, to_pocket(view, 8, pocket).fan, sigma))
-                mine[at.LAYOUT] -= math.log(max(easy, BLOCKED))
+            survey_group(view, memory, group, sigma, Task(True, hand[n], kitchen), out[n, group])
+
+
+@inner
+def looked_up(values, row, column):
+    """A table's value between its entries, bilinear; beyond its edges the edge's."""
+    most = values.shape[0] - 1
+    row, column = min(max(row, 0.0), float(most)), min(max(column, 0.0), float(most))
+    i, j = min(int(row), most - 1), min(int(column), most - 1)
+    s, t = row - i, column - j
+    low = (1.0 - t) * values[i, j] + t * values[i, j + 1]
+    high = (1.0 - t) * values[i + 1, j] + t * values[i + 1, j + 1]
+    return (1.0 - s) * low + s * high
+
+
+@compiled
+def shooter(race, needs, other, chance, seen):
+    """The shooter's chance to win the game.
+
+    Args:
+        race: (4, m, m), the values of `client.agents.search.race.Race`.
+        needs, other: perfect balls that the shooter and the opponent need, >= 0, the 8 included.
+        chance: of the shooter's best pot. seen: whether any ball can be struck straight.
+    """
+    made, missed = looked_up(race[at.MADE], needs - 1.0, other), looked_up(race[at.MISSED], needs, other)
+    safe = looked_up(race[at.SAFE] if seen else race[at.HIDDEN], needs, other)
+    return max(chance * made + (1.0 - chance) * missed, safe)
+
+
+@compiled
+def worths(table, before, positions, shooters, terms, race, memory, out):
+    """What each position is worth to its shooter.
+
+    Args:
+        before: (n, 16, 2) m, where balls lay before the stroke that led there: rows alike cost less.
+        shooters: (group, hand), each (n,): the group that shoots, -1 on an open table (the better one then), and
+            whether the cue ball is in hand.
+        terms: (sigma, kitchen, perfect, pots): as for `survey`; what a layout's hardness is divided by to count as
+            balls; whether pots count, or nothing but safeties.
+        race: as for `shooter`. memory: `new_memory`. out: (n,), filled.
+    """
+    group, hand = shooters
+    sigma, kitchen, perfect, pots = terms
+    offers, needs = memory.offers, memory.needs
+    for n in range(positions.shape[0]):
+        view = Layout(table, positions[n])
+        remember(table, memory, before[n], positions[n], sigma)
+        for g in range(2):
+            mine = group[n] == -1 or group[n] == g
+            left = survey_group(view, memory, g, sigma, Task(mine, mine and hand[n], kitchen), offers[g])
+            needs[g] = left + offers[g, at.LAYOUT] / perfect
+        best = 0.0
+        for g in range(2):
+            if group[n] == -1 or group[n] == g:
+                chance = (offers[g, at.PLACED] if hand[n] else offers[g, at.CHANCE]) if pots else 0.0
+                seen = hand[n] or offers[g, at.SEEN] > 0.0
+                best = max(best, shooter(race, needs[g], needs[1 - g], chance, seen))
+        out[n] = best
 
 
 @compiled
@@ -336,7 +573,8 @@ def list_pots(table, positions, targets, sigma, found):
                 lane = to_pocket(view, one, into)
                 if lane.fan.low >= lane.fan.high:
                     continue
-                p, direction, half = straight(view, one, lane, sigma)
+                direction, fan = straight(view, one, lane, 0.0)
+                p, half = normal_between(fan, sigma), half_of(fan)
                 if p <= chance[n, most - 1]:
                     continue
                 place = most - 1

@@ -1,0 +1,191 @@
+"""How strong players are, from lock-step games (`benchmarks.lockstep`): score, Elo, and why turns and games are lost.
+
+`python -m benchmarks.strength play --player search:shots=10000 --opponent search:shots=1000 --noise 2 --pairs 1500
+--plan "1,500 pairs, decided before the first"` plays one match-up and appends a line. The number of pairs is told
+beforehand and played whole; a line says what was planned. `search:seconds=0.1,cpu=on@8336b41` is the player of that
+commit, in a checkout of its own. Match-ups of players with `shots` are repeated exactly.
+"""
+
+import argparse
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.stats import binomtest
+
+from benchmarks import recording
+from benchmarks.lockstep import MatchUp, Played, Turn, play
+from benchmarks.recording import Row, Tables
+from client.agents.search.shots import CHANCE
+from client.agents.search.sight import Sight
+from physics import Table
+from physics.table import NAMED
+from tournament.statistics import score_of_cells
+
+SHORT = (
+    MatchUp(("search:shots=400", "greedy"), noise=1.0, pairs=2),
+    MatchUp(("search:shots=400", "search:shots=200"), noise=5.0, table="nine_foot", pairs=4),
+)
+FULL = tuple(
+    MatchUp(("search:shots=10000", "search:shots=1000"), noise=noise, table=table, pairs=500)
+    for table in ("olympiad", "nine_foot")
+    for noise in (1.0, 2.0, 5.0)
+)
+"""What `pooliad bench strength` plays: hours of processor time in full."""
+NO_POT, HARD, FAIR = 0.1, 0.5, 0.8
+"""Chances of the best straight pot below which there is none, it is hard, or fair; above it is easy."""
+CAUSES = ("no_pot", "hard", "fair", "easy_missed", "easy_declined")
+DECILES = 10
+
+
+def measure(full: bool) -> Tables:
+    """All match-ups of the plan."""
+    return tables(FULL if full else SHORT, "as the plan in benchmarks/strength.py")
+
+
+def tables(matches: Sequence[MatchUp], plan: str) -> Tables:
+    """Play match-ups, and what came of them."""
+    results: list[Row] = []
+    ends: list[Row] = []
+    reckoned: list[Row] = []
+    for match in matches:
+        games = play(match)
+        results.append(match_row(match, games) | {"plan": plan})
+        for player in (0, 1):
+            ends.append(end_row(match, games, player))
+            reckoned += reckoned_rows(match, games, player)
+    return {"matches": results, "ends": ends, "reckoned": reckoned}
+
+
+def match_row(match: MatchUp, games: Sequence[Played]) -> Row:
+    """The score with its interval from pairs, and what both did."""
+    points: Counter[int] = Counter()
+    for game in games:
+        points[game.pair] += 1 if game.winner is None else 2 * (game.winner == 0)
+    cells = Counter(points.values())
+    score = score_of_cells([cells[cell] for cell in range(5)])
+    return {
+        **named(match),
+        "seed": match.seed,
+        "pairs": len(points),
+        "score": round(score.score, 4),
+        "low_95": round(score.low, 4),
+        "high_95": round(score.high, 4),
+        "elo": round(score.elo, 1),
+        "elo_low_95": round(score.elo_low, 1),
+        "elo_high_95": round(score.elo_high, 1),
+        **{f"cells_{cell}": cells[cell] for cell in range(5)},
+        **side(games, 0, ""),
+        **side(games, 1, "opponent_"),
+    }
+
+
+def named(match: MatchUp) -> Row:
+    """Which match-up."""
+    return {"player": match.players[0], "opponent": match.players[1], "noise": match.noise, "table": match.table}
+
+
+def side(games: Sequence[Played], player: int, prefix: str) -> Row:
+    """What one player did."""
+    broke = [game for game in games if game.breaker == player]
+    runs = sum(game.run_out for game in broke)
+    interval = binomtest(runs, max(1, len(broke))).proportion_ci(0.95)
+    lost = [game for game in games if game.winner == 1 - player]
+    strokes = max(1, sum(game.strokes[player] for game in games))
+    called = [turn.made for game in games for turn in game.turns if turn.seat == player and turn.called]
+    row = {
+        "breaks": len(broke),
+        "break_and_run": round(runs / max(1, len(broke)), 4),
+        "break_and_run_low_95": round(float(interval.low), 4),
+        "break_and_run_high_95": round(float(interval.high), 4),
+        "lost": len(lost),
+        "lost_winnable": sum(bool(game.strokes[player]) for game in lost),
+        "called": len(called),
+        "share_made": round(float(np.mean(called)) if called else 0.0, 4),
+        "shots_per_stroke": round(sum(game.simulated[player] for game in games) / strokes),
+        "seconds_per_stroke": round(sum(game.seconds[player] for game in games) / strokes, 4),
+    }
+    return {f"{prefix}{name}": value for name, value in row.items()}
+
+
+def end_row(match: MatchUp, games: Sequence[Played], player: int) -> Row:
+    """Why a player's turns at the table ended, short of winning: by the best straight pot that it had."""
+    ended = [turn for game in games for turn in _ends(game, player)]
+    sight, counts = Sight(Table.named(match.table), match.noise), Counter[str]()
+    if ended:
+        positions = np.array([turn.positions for turn in ended])
+        offers = sight.survey(positions, np.zeros(len(ended), bool))[:, :, CHANCE]
+        groups = np.array([turn.group for turn in ended])
+        best = np.where(groups < 0, offers.max(axis=1), offers[np.arange(len(ended)), groups])
+        counts.update(_cause(turn, chance) for turn, chance in zip(ended, best.tolist(), strict=True))
+    return {**named(match), "of": match.players[player], "turns": len(ended)} | {each: counts[each] for each in CAUSES}
+
+
+def _ends(game: Played, player: int) -> list[Turn]:
+    """The strokes after which a player left the table; the stroke that won is none."""
+    mine = [turn for turn in game.turns if turn.seat == player and not turn.goes_on]
+    return mine[:-1] if game.winner == player and mine and mine[-1] is game.turns[-1] else mine
+
+
+def _cause(turn: Turn, chance: float) -> str:
+    if chance < NO_POT:
+        return "no_pot"
+    if chance < HARD:
+        return "hard"
+    if chance < FAIR:
+        return "fair"
+    return "easy_missed" if turn.called else "easy_declined"
+
+
+def reckoned_rows(match: MatchUp, games: Sequence[Played], player: int) -> list[Row]:
+    """What strokes were reckoned to be worth, by tenths, beside how often they led to a won game."""
+    known = [
+        (turn.worth, float(game.winner == player))
+        for game in games
+        for turn in game.turns
+        if turn.seat == player and turn.worth is not None and game.winner is not None
+    ]
+    if not known:
+        return []
+    worth, won = np.array(known).T
+    decile = np.minimum((worth * DECILES).astype(int), DECILES - 1)
+    losses = {"log_loss": log_loss(worth, won), "log_loss_of_constant": log_loss(np.full(len(won), won.mean()), won)}
+    return [
+        {**named(match), "of": match.players[player], "from": round(each / DECILES, 1), "strokes": int(here.sum())}
+        | {"reckoned": round(float(worth[here].mean()), 3), "won": round(float(won[here].mean()), 3)}
+        | losses
+        for each in range(DECILES)
+        if (here := decile == each).any()
+    ]
+
+
+def log_loss(chance: np.ndarray, won: np.ndarray) -> float:
+    """Mean of minus the logarithm of the chance given to what happened; certainties count as 0.999."""
+    known = np.clip(chance, 0.001, 0.999)
+    return round(float(-np.mean(np.where(won > 0.5, np.log(known), np.log(1.0 - known)))), 4)
+
+
+def main() -> None:
+    """Play one match-up, or the plan."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.strength")
+    commands = parser.add_subparsers(dest="command")
+    one = commands.add_parser("play")
+    one.add_argument("--player", required=True)
+    one.add_argument("--opponent", required=True)
+    one.add_argument("--noise", type=float, required=True)
+    one.add_argument("--table", default="olympiad", choices=tuple(NAMED))
+    one.add_argument("--pairs", type=int, required=True, help="decided beforehand, and played whole")
+    one.add_argument("--first", type=int, default=0)
+    one.add_argument("--seed", type=int, default=0)
+    one.add_argument("--plan", required=True, help="what was decided before the first game, and why")
+    parser.add_argument("--full", action="store_true")
+    given = parser.parse_args()
+    if given.command is None:
+        recording.run("strength", measure, given.full)
+        return
+    match = MatchUp((given.player, given.opponent), given.noise, given.table, given.seed, given.first, given.pairs)
+    recording.run("strength", lambda _full: tables([match], given.plan), full=True)
+
+
+if __name__ == "__main__":
+    main()

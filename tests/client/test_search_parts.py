@@ -1,0 +1,111 @@
+"""The parts of `search` that find better strokes: banks aimed, finalists polished, jumps."""
+
+import math
+
+import numpy as np
+import pytest
+
+import physics
+from client.agents.search import banks, polish
+from client.agents.search.budget import Budget, Pace
+from client.agents.search.evaluate import Evaluator, Judge, answered
+from client.agents.search.finalists import Finalists
+from client.agents.search.jumps import ELEVATIONS, leaps
+from client.agents.search.refine import falls
+from client.agents.search.shots import Shots, Tables
+from client.agents.search.sight import Sight
+from client.agents.search.sweep import sweep
+from client.agents.search.value import Values
+from referee.rules.batch_rulings import target_balls
+
+OLYMPIAD, NINE = physics.Table.olympiad(), physics.Table.nine_foot()
+
+
+def at(table, balls, noise=1.0):
+    """An evaluator, what answers it, and the table alone, solids to shoot."""
+    values = Values(Sight(table, noise), noise)
+    evaluator = Evaluator(table, values, noise, np.random.default_rng(5), Budget(Pace()), False)
+    positions = np.full((1, 16, 2), np.nan)
+    for ball, place in balls.items():
+        positions[0, ball] = place
+    return evaluator, Judge(table, values, physics.simulate_batch), Tables(positions, np.zeros(1, np.int8))
+
+
+BEHIND = {0: (0.25, 0.4), 1: (0.56, 1.0), 9: (0.4, 0.68), 10: (0.7, 0.8), 11: (0.3, 1.2), 8: (0.9, 2.0)}
+
+
+def test_aimed_banks_are_pocketed_more_often_than_those_come_upon():
+    """Under the noise, over the best of both: the middle of the directions that do it, at more speeds."""
+    evaluator, judge, tables = at(OLYMPIAD, BEHIND)
+    swept = answered(sweep(evaluator, tables, 21, False), judge)
+    worth = answered(evaluator.as_meant(swept), judge)
+    better = answered(banks.aimed(evaluator, swept, worth, 12), judge)
+    assert len(better) > 12
+    assert (better.margin >= 0.0).all()
+    assert falls(better, answered(evaluator.simulated(better), judge)).mean() > 0.9
+
+    def best_share(shots):
+        spread = shots[np.repeat(np.arange(len(shots)), 60)]
+        noise = np.random.default_rng(1).normal(size=(len(spread), 5)) * (0.075, 0.125, 0.1, 0.5, 0.5)
+        strokes = spread.strokes + noise
+        batch = physics.simulate_batch(OLYMPIAD, spread.before(), np.maximum(strokes, (0, -999, 0, -99, -99)))
+        return np.sort(falls(spread, batch).reshape(len(shots), 60).mean(axis=1))[-5:].mean()
+
+    assert best_share(better) > best_share(swept[np.flatnonzero(swept.ball >= 0)]) + 0.05
+
+
+@pytest.mark.parametrize("table", [OLYMPIAD, NINE], ids=["olympiad", "nine_foot"])
+def test_neighbours_can_be_played(table):
+    evaluator, _, tables = at(table, BEHIND)
+    parents = Shots(
+        tables, np.zeros(3, np.int64),
+        np.array([[0.06, 60.0, 5.0, 17.0, 5.0], [table.v_max, 359.9, 5.0, 0.0, 0.0], [3.0, 61.0, 5.0, -3.0, -17.0]]),
+        np.array([1, 1, -1]), np.array([4, 4, -1]), np.array([0.0, 0.3, 50.0]),
+    )  # fmt: skip
+    near = polish.neighbours(evaluator, evaluator.values.sight.raised(parents), 1.0, np.random.default_rng(2))
+    v, phi, theta, a, b = near.strokes.T
+    assert len(near) > 12
+    assert ((v > 0.0) & (v <= table.v_max) & (phi >= 0.0) & (phi < 360.0) & (theta >= 0.0)).all()
+    assert (np.hypot(a, b) <= polish.FURTHEST + 1e-9).all()
+    state = physics.TableState.from_positions(BEHIND)
+    assert all(physics.check(table, state, physics.Shot(*row)) is None for row in near.strokes.tolist())
+
+
+def test_a_neighbour_of_a_jump_is_a_jump():
+    evaluator, _, tables = at(NINE, {0: (0.6, 0.6), 9: (0.6, 0.95), 1: (0.6, 1.6), 8: (1.0, 2.2)})
+    jumps = leaps(evaluator, tables, target_balls(tables.positions, tables.group)[0])
+    assert len(jumps) > 20
+    assert jumps.strokes[:, 2].min() >= min(ELEVATIONS) - 1e-9
+    near = polish.neighbours(evaluator, jumps[:3], 0.5, np.random.default_rng(2))
+    assert len(near) > 12
+    assert near.strokes[:, 2].min() > 20.0
+
+
+def test_nothing_hidden_nothing_jumped():
+    evaluator, _, tables = at(NINE, {0: (0.6, 0.6), 9: (0.2, 0.95), 1: (0.6, 1.6), 8: (1.0, 2.2)})
+    assert not len(leaps(evaluator, tables, target_balls(tables.positions, tables.group)[0]))
+
+
+def test_polish_finds_a_better_stroke():
+    """From a pot that is aimed badly and far too hard, by 400 copies that had no part in the choice."""
+    evaluator, judge, tables = at(OLYMPIAD, {0: (0.5, 0.9), 1: (0.3, 0.5), 2: (0.8, 1.7), 9: (0.9, 0.4), 8: (0.2, 1.8)})
+    pots = evaluator.values.sight.pots(tables, 1)
+    bad = np.array([[4.5, pots.phi[0, 0] + 0.6 * pots.margin[0, 0], 0.0, 6.0, 0.0]])
+    shots = evaluator.values.sight.raised(
+        Shots(tables, np.zeros(1, np.int64), bad, pots.ball[0], pots.pocket[0], pots.margin[0])
+    )
+    first = found = Finalists.of(shots, answered(evaluator.noisy(shots, 100), judge))
+    for spread, copies in polish.rounds(6000):
+        found = answered(polish.better(evaluator, found, spread, copies, np.random.default_rng(3)), judge).best(8)
+    both = first.shots.joined(found.best(1).shots)
+    before, after = answered(evaluator.noisy(both, 400), judge).mean(axis=1)
+    assert after > before + 0.05
+
+
+def test_rounds_spend_no_more_than_they_are_given():
+    for shots in (0, 431, 432, 5_000, 10**9):
+        given = list(polish.rounds(shots))
+        assert sum(polish.PARENTS * (polish.CHILDREN + 1) * copies for _, copies in given) <= shots
+        assert all(copies <= polish.MOST_COPIES for _, copies in given)
+    assert len(given) == polish.ROUNDS
+    assert math.prod(spread for spread, _ in given) < 1e-6
