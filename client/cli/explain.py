@@ -1,5 +1,6 @@
 """`pooliad agent explain`: what `search` considers in a position, and why it chooses."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from client.agents.search.options import Options
     from client.agents.search.thinking import Thought
     from referee import Action, EightBall, Game
+    from referee.play import NoiseModel
 
 SHOWN = 5
 """Finalists."""
@@ -36,10 +38,10 @@ def explain(
     """Show which strokes `search` considers in a position, what each is worth, and which one it chooses."""
     from client.agents.search.explaining import explained, thought_about
 
-    rules, game, level, played = _situation(file, shot, table)
+    rules, game, model, played = _situation(file, shot, table)
     options = _options(name)
     try:
-        thought = thought_about(rules, game, level if noise is None else noise, options, seed)
+        thought = thought_about(rules, game, model if noise is None else replace(model, level=noise), options, seed)
     except ValueError as error:
         fail(str(error), USAGE)
     shown = [explained(rules, game, each) for each in thought.considered[:SHOWN]]
@@ -51,17 +53,18 @@ def explain(
         _draw(picture, shown[0])
 
 
-def _situation(file: Path, shot: int | None, table: str) -> "tuple[EightBall, Game, float, Action | None]":
+def _situation(file: Path, shot: int | None, table: str) -> "tuple[EightBall, Game, NoiseModel, Action | None]":
     """Referee, game, noise, and what was played there if that is known; leaves the command when there is none."""
     from client.cli.agent import read_position
     from referee import EightBall
+    from referee.play import NoiseModel
 
     if shot is not None:
         return _from_record(file, shot)
-    return EightBall(load_table(table)), read_position(file), 1.0, None
+    return EightBall(load_table(table)), read_position(file), NoiseModel(), None
 
 
-def _from_record(file: Path, shot: int) -> "tuple[EightBall, Game, float, Action | None]":
+def _from_record(file: Path, shot: int) -> "tuple[EightBall, Game, NoiseModel, Action | None]":
     """The game of a record before one of its strokes."""
     from referee import RefereeError
     from referee.record import Header, read_record
@@ -76,7 +79,7 @@ def _from_record(file: Path, shot: int) -> "tuple[EightBall, Game, float, Action
     if shot > len(strokes):
         fail(f"--shot is {shot}; this game has strokes 1 to {len(strokes)}", USAGE)
     before, action, _ = strokes[shot - 1]
-    return header.terms.rules, before, header.terms.noise.level, action
+    return header.terms.rules, before, header.terms.noise, action
 
 
 def _options(name: str) -> "Options":

@@ -120,6 +120,11 @@ class NoiseModel:
         """The standard deviations where they are not the Olympiad's, which nothing written names."""
         return None if self.sigmas == OLYMPIAD_SIGMAS else self.sigmas
 
+    @property
+    def by_direction(self) -> float:
+        """The level at which the Olympiad's noise is as far off in direction, which decides what is potted."""
+        return self.level * (self.sigmas.phi / SIGMA_PHI)
+
     def to_dict(self) -> dict[str, Any]:
         """JSON form."""
         return {"level": self.level, "told": self.told} | ({"sigmas": self.others.to_dict()} if self.others else {})

@@ -17,6 +17,7 @@ from client.simulator import Simulator
 from physics import Table
 from protocol import View
 from referee import Action, Call, CueBallArea, Decision, EightBall, Game, Phase
+from referee.play import NoiseModel
 
 USUAL_NOISE = 1.0
 """The level to reckon with when the game does not tell."""
@@ -46,7 +47,7 @@ class GreedyAgent(Agent):
     def game_started(self, view: View) -> None:
         """Set up for this game's table and noise."""
         self._chance = generator(self._seed, view)
-        self._noise = USUAL_NOISE if view.noise.level is None else view.noise.level
+        self._noise = view.noise.model(USUAL_NOISE)
         self._rules = EightBall(view.table_model())
 
     def choose(self, view: View) -> Action:
@@ -59,7 +60,7 @@ class _Turn:
     """One turn: everything that depends on how the game stands."""
 
     def __init__(
-        self, rules: EightBall, game: Game, noise: float, chance: np.random.Generator, simulator: Simulator
+        self, rules: EightBall, game: Game, noise: NoiseModel, chance: np.random.Generator, simulator: Simulator
     ) -> None:
         self._rules, self._game, self._noise, self._chance = rules, game, noise, chance
         self._simulator = simulator

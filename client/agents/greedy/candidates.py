@@ -11,7 +11,7 @@ from client.agents.greedy.planned_action import PlannedAction
 from client.geometry import Point, Pot, aimed, azimuth, pots
 from physics import Shot, Table, TableState, min_elevation
 from referee import SAFETY, Action, Call
-from referee.play.noise import SIGMA_B, SIGMA_PHI, SIGMA_THETA
+from referee.play.noise import NoiseModel
 
 POT_SPEEDS = (0.8, 1.4, 2.4, 4.0)
 """m/s of the cue: from just enough for a short pot to enough for the length of the table with a thin cut."""
@@ -33,11 +33,12 @@ SIGMAS_OFF = 2.5
 
 
 class Candidates:
-    """Makes plans on one table under one noise level."""
+    """Makes plans on one table under one noise, or the Olympiad's at a level."""
 
-    def __init__(self, table: Table, noise: float) -> None:
+    def __init__(self, table: Table, noise: float | NoiseModel) -> None:
+        model = NoiseModel.of(noise)
         self._table = table
-        self._slack = SIGMAS_OFF * noise
+        self._slack, self._sigmas = SIGMAS_OFF * model.level, model.sigmas
 
     def pots(self, before: TableState, place: Point | None, balls: Sequence[int], most: int) -> list[PlannedAction]:
         """The `most` easiest open pots of `balls`, each at several speeds."""
@@ -105,7 +106,7 @@ class Candidates:
 
     def _elevation(self, before: TableState, phi: float, b: float) -> float:
         """The least elevation (deg) at which the cue stays free under noise; NaN when there is none."""
-        aside, lower = self._slack * SIGMA_PHI, b - self._slack * SIGMA_B
+        aside, lower = self._slack * self._sigmas.phi, b - self._slack * self._sigmas.b
         least = [min_elevation(self._table, before, phi + turn, 0.0, lower) for turn in (-aside, 0.0, aside)]
-        theta = max(least) + self._slack * SIGMA_THETA
+        theta = max(least) + self._slack * self._sigmas.theta
         return theta if theta <= self._table.theta_max else math.nan

@@ -12,10 +12,8 @@ from client.simulator import Simulator
 from physics import Batch
 from physics.shot import FIELDS
 from referee import Action, Call, CueBallArea, EightBall, Game, Phase
-from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
+from referee.play.noise import NoiseModel
 from referee.rules.batch_rulings import SAFETY_CALL, group_number, read_verdicts
-
-SIGMAS = dict(zip(FIELDS, (SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B), strict=True))
 
 SHARE = 10
 """A judgement simulates at most a tenth of what the budget has left: a game has some dozens of strokes."""
@@ -27,18 +25,24 @@ class Judge:
     Args:
         rules: the referee on the game's table.
         game: as it stands; the player in turn is the one whose worth counts.
-        noise: the noise level to reckon with.
+        noise: to reckon with, or the level of the Olympiad's.
         chance: where the variants come from.
         simulator: the physics; of what its budget has left each judgement takes a share and no more.
     """
 
     def __init__(
-        self, rules: EightBall, game: Game, noise: float, chance: np.random.Generator, simulator: Simulator
+        self,
+        rules: EightBall,
+        game: Game,
+        noise: float | NoiseModel,
+        chance: np.random.Generator,
+        simulator: Simulator,
     ) -> None:
         self._rules = rules
         self._simulator = simulator
         self._game = game
-        self._spread = noise * np.array([SIGMAS[name] for name in FIELDS])
+        model = NoiseModel.of(noise)
+        self._spread = model.level * model.sigmas.row()
         self._chance = chance
 
     def worths(self, plans: Sequence[PlannedAction], variants: int) -> NDArray[np.float64]:

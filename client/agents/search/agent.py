@@ -44,9 +44,9 @@ class SearchAgent(Agent):
     def game_started(self, view: View) -> None:
         """Set up for this game's table and noise."""
         self._chance = generator(self._seed, view)
-        self._noise = USUAL_NOISE if view.noise.level is None else view.noise.level
+        self._noise = view.noise.model(USUAL_NOISE)
         self._rules = EightBall(view.table_model())
-        self._values = Values(Sight(self._rules.table, self._noise), self._noise)
+        self._values = Values(Sight(self._rules.table, self._noise), self._noise.by_direction)
 
     def choose(self, view: View) -> Action:
         """The best stroke, or the decision that leads to the best position."""
@@ -90,7 +90,7 @@ class SearchAgent(Agent):
     def _break(self, game: Game) -> Action:
         """The studied break."""
         table = self._rules.table
-        best = breaks.best_break(self._noise, table)
+        best = breaks.best_break(self._noise.by_direction, table)
         place = best.places(table, game.state)[0]
         return Action(shot=best.stroke(table, game.state.moved(0, place)), cue_ball=place)
 

@@ -16,11 +16,9 @@ from client.agents.search.shots import THETA, Floats, Groups, Integers, Shots, V
 from client.agents.search.value import Values
 from physics import Batch, Table
 from physics.shot import FIELDS
-from referee.play.noise import SIGMA_A, SIGMA_B, SIGMA_PHI, SIGMA_THETA, SIGMA_V
+from referee.play.noise import NoiseModel
 from referee.rules.batch_rulings import read_verdicts
 
-SIGMAS = np.array([SIGMA_V, SIGMA_PHI, SIGMA_THETA, SIGMA_A, SIGMA_B])
-"""Standard deviations of a stroke's columns at level 1."""
 AT_ONCE = 1000
 """Strokes of a question to a clock: it is looked at between them."""
 
@@ -139,17 +137,24 @@ class Evaluator:
     """Asks what comes of strokes.
 
     Args:
-        table: the game's. values: of positions. noise: the level. chance: where the noise comes from.
+        table: the game's. values: of positions. noise: a level, or the noise. chance: where the noise comes from.
         budget: of the stroke. kitchen: whether the cue ball is in hand behind the head string (R38).
 
     Its methods raise `TimeUp` when the budget's seconds have passed.
     """
 
     def __init__(
-        self, table: Table, values: Values, noise: float, chance: np.random.Generator, budget: Budget, kitchen: bool
+        self,
+        table: Table,
+        values: Values,
+        noise: float | NoiseModel,
+        chance: np.random.Generator,
+        budget: Budget,
+        kitchen: bool,
     ) -> None:
         self.table, self.values, self.budget = table, values, budget
-        self.noise, self._spread = noise, noise * SIGMAS
+        model = NoiseModel.of(noise)
+        self.noise, self._spread = model.level, model.level * model.sigmas.row()
         self._chance, self._kitchen = chance, kitchen
 
     def simulated(self, shots: Shots) -> Thinking[Batch]:

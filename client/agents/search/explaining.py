@@ -14,6 +14,7 @@ from client.agents.search.thinking import Considered, Thought, TurnSearch
 from client.agents.search.value import Values
 from physics import EventKind, Result
 from referee import Call, CueBallArea, EightBall, Game, Phase
+from referee.play import NoiseModel
 
 HIGH, LOOKS = 0.01, 100
 """m off the cloth, higher than a cue ball hops that is struck as level as can be; and how often it is looked at."""
@@ -34,11 +35,11 @@ class Explained:
     made: bool
 
 
-def thought_about(rules: EightBall, game: Game, noise: float, options: Options, seed: int = 0) -> Thought:
+def thought_about(rules: EightBall, game: Game, noise: NoiseModel, options: Options, seed: int = 0) -> Thought:
     """What `search` thinks about a called stroke.
 
     Args:
-        rules: the referee, on its table. game: the position. noise: level. seed: of the noise it simulates.
+        rules: the referee, on its table. game: the position. noise: of the game. seed: of the noise it simulates.
 
     Raises:
         ValueError: the game is over, or what is asked for is a break or a decision: those are not searched for.
@@ -47,7 +48,7 @@ def thought_about(rules: EightBall, game: Game, noise: float, options: Options, 
         raise ValueError(
             f"phase = {game.phase.value!r}: must be 'play'; breaks were studied beforehand (docs/agents.md)"
         )
-    values = Values(Sight(rules.table, noise), noise)
+    values = Values(Sight(rules.table, noise), noise.by_direction)
     chance = np.random.default_rng(seed)
     budget = Budget(Pace(), options.shots, math.inf if options.shots else options.seconds)
     kitchen = game.cue_ball_in_hand is CueBallArea.KITCHEN

@@ -11,7 +11,7 @@ from client.agents.search.race import Race
 from client.agents.search.shots import PHI, THETA, Floats, Integers, Shots, Tables
 from client.geometry.strokes import azimuths
 from physics import Table
-from referee.play.noise import SIGMA_B, SIGMA_PHI, SIGMA_THETA
+from referee.play.noise import NoiseModel
 from referee.rules.batch_rulings import target_balls
 
 LEAST_NOISE = 0.1
@@ -52,14 +52,15 @@ class Terms:
 
 
 class Sight:
-    """Plane geometry on one table under one level of noise."""
+    """Plane geometry on one table under one noise, or the Olympiad's at a level."""
 
-    def __init__(self, table: Table, noise: float) -> None:
+    def __init__(self, table: Table, noise: float | NoiseModel) -> None:
+        model = NoiseModel.of(noise)
         self._kernels = engine.geometry(table.has_jaws)
         self._table = table
         self._row = engine.table_row(table)
-        self._slack = SIGMAS_FREE * noise
-        self.sigma = float(np.radians(SIGMA_PHI) * max(noise, LEAST_NOISE))
+        self._slack, self._sigmas = SIGMAS_FREE * model.level, model.sigmas
+        self.sigma = float(np.radians(model.sigmas.phi) * max(model.level, LEAST_NOISE))
 
     def survey(self, positions: Floats, hand: NDArray[np.bool_], kitchen: float = 0.0) -> Floats:
         """(n, 2, 5): what each table offers to either group; the columns are CHANCE and its fellows."""
@@ -130,8 +131,8 @@ class Sight:
         """(k,) deg: the least elevation that leaves the cue free under the noise; NaN where none does."""
         _, phi, _, a, b = shots.strokes.T
         theta = np.empty(len(shots))
-        columns = (phi.copy(), a.copy(), b - self._slack * SIGMA_B)
+        columns = (phi.copy(), a.copy(), b - self._slack * self._sigmas.b)
         positions = np.ascontiguousarray(shots.tables.positions)
-        self._kernels.elevations(self._row, positions, shots.table, columns, self._slack * SIGMA_PHI, theta)
-        least: Floats = theta + self._slack * SIGMA_THETA + ROOM
+        self._kernels.elevations(self._row, positions, shots.table, columns, self._slack * self._sigmas.phi, theta)
+        least: Floats = theta + self._slack * self._sigmas.theta + ROOM
         return least
