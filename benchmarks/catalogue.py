@@ -7,6 +7,7 @@ BENCHMARKS = {
     "acceptance": "what corner and side pockets accept, by speed and approach, beside expected figures",
     "stress": "hostile random shots by class: does every one end, inside the table, without overlap?",
     "flights": "hostile shots that fly by class, what flight costs, and what its unmeasured parameters change",
+    "hops": "run time against error of a ball that jumps and lands: this engine, time stepping",
     "constants": "what each constant of the contact rule changes when it is ten times larger or smaller",
     "error_vs_time": "run time against error: this engine, time stepping, scipy's solve_ivp",
     "paper_claims": "the paper's operation counts and its comparison of quartic solvers, measured again",

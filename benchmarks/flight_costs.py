@@ -1,16 +1,14 @@
-"""What flight costs where nothing flies and where something does, what skipping saves, how far time steps are out, and
-what hangs on parameters that nobody measured.
+"""What flight costs where nothing flies and where something does, what skipping saves, and what hangs on parameters
+that nobody measured.
 """
 
 import statistics
-import time
 from collections.abc import Iterator
 
 import numpy as np
 
 import physics
 from benchmarks import real_tables, scenes, timing, unfiltered, variants
-from benchmarks.opponents import air_stepping
 from benchmarks.recording import Row
 from benchmarks.scenes import Floats
 
@@ -109,40 +107,6 @@ def costs_of_events(n: int) -> dict[str, float]:
         events = int(physics.simulate_batch(*work).n_events.sum())
         found[name] = timing.in_pairs(lambda work=work: physics.simulate_batch(*work), 5)[1] / events  # type: ignore[misc]
     return found
-
-
-def hops(n: int) -> tuple[Floats, Floats]:
-    """A lone ball that jumps up the table and lands once or more within a second, far from every cushion."""
-    rng, states, shots = np.random.default_rng(22), np.full((n, 16, 2), np.nan), np.zeros((n, 5))
-    states[:, 0] = 0.635, 0.3
-    shots[:, 0], shots[:, 1] = rng.uniform(1.0, 2.0, n), rng.uniform(85.0, 95.0, n)
-    shots[:, 2], shots[:, 4] = rng.uniform(25.0, 50.0, n), rng.uniform(0.0, 8.0, n)
-    return states, shots
-
-
-def error_vs_time(n: int, steps: list[float]) -> Iterator[Row]:
-    """Run time against error a second into hops: this engine, and time stepping; truth as in ``real_tables``."""
-    states, shots = hops(n)
-    truths = [real_tables.truth(FLYING, state, shot) for state, shot in zip(states, shots, strict=True)]
-    many = 200
-    work = FLYING, np.tile(states, (many, 1, 1)), np.tile(shots, (many, 1))
-    seconds = timing.cpu_seconds(lambda: physics.simulate_batch(*work))
-    results = [real_tables.played(FLYING, state, shot) for state, shot in zip(states, shots, strict=True)]
-    ends = [result.at(min(real_tables.HORIZON, result.duration)).positions[0] for result in results]
-    yield real_tables.errors("this engine", None, seconds / many / n, ends, truths)
-    for back_up in (False, True):
-        for step in steps:
-            ends, seconds = [], 0.0
-            for result in results:
-                cue = result.events[0].states[0]
-                ball = np.array([*cue.position, *cue.velocity, *cue.spin, cue.height, cue.velocity_z])
-                air_stepping.simulate(FLYING, ball.copy(), step, step, back_up)  # compiled before
-                started = time.thread_time()
-                air_stepping.simulate(FLYING, ball, real_tables.HORIZON, step, back_up)
-                seconds += time.thread_time() - started
-                ends.append(ball[:2])
-            name = "time stepping, backing up" if back_up else "time stepping"
-            yield real_tables.errors(name, step, seconds / n, ends, truths)
 
 
 def choices(n: int) -> Iterator[Row]:

@@ -204,7 +204,6 @@ def measure(full: bool) -> Tables:
         "by_class": rows,
         "cost": list(flight_costs.costs(8_000 if full else 2_000, 31 if full else 15)),
         "savings": list(flight_costs.savings(8_000 if full else 2_000)),
-        "error_vs_time": list(flight_costs.error_vs_time(24 if full else 6, [1e-2, 1e-3, 1e-4, 1e-5])),
         "choices": list(flight_costs.choices(8_000 if full else 2_000)),
         "failures": failures[:MOST_FAILURES],
     }

@@ -4,8 +4,6 @@ Between steps the ball follows its closed forms, in the air and on the cloth (``
 what finds landings. The laws are the table's: the impact of a fixed body, and no hop slower than LIFT.
 """
 
-import math
-
 import numpy as np
 
 import physics
@@ -40,10 +38,7 @@ def fly(ball, height, rise, horizon, dt, back_up, table):
         rise -= gravity * dt
         if height >= 0.0 or rise >= 0.0:
             continue
-        ago = 0.0
-        if back_up:  # the landing was where the parabola crossed the cloth
-            ago = (rise + math.sqrt(max(0.0, rise * rise - 2.0 * gravity * height))) / -gravity
-            ago = min(max(ago, 0.0), dt)
+        ago = min(dt, height / rise) if back_up else 0.0  # at the present speed
         ball[0] -= ago * ball[2]
         ball[1] -= ago * ball[3]
         v, w = land((ball[2], ball[3], rise + gravity * ago), (ball[4], ball[5], ball[6]), radius, e_cloth, mu)

@@ -376,3 +376,41 @@ def test_a_ball_that_a_denormal_number_presses_at_a_nose_comes_to_rest():
     result = physics.simulate(NINE, state, shot)
     assert result.status is Status.AT_REST
     assert result.n_events < 6
+
+
+AT_A_SEAM = {
+    "pressed at the end of a nose": (
+        NINE.replace(
+            side_mouth=0.14,
+            nose_height=0.0414,
+            mu_slide=1.0,
+            mu_spin=0.001,
+            e_ball=1.0,
+            v_max=20.0,
+            theta_max=89.0,
+            side_cut=95.0,
+            cue_end_mass=0.0,
+            mu_tip=1.0,
+            e_tip=0.5,
+            cushion="mathavan",
+            e_cushion=0.0,
+            mu_cushion=1.0,
+            ball="consistent",
+        ),
+        {0: (1.2444647302735001, 2.4569912145659893), 9: (1.1288412145659874, 2.4563147302735002)},
+        physics.Shot(20.0, -45.0, 0.0, 1.749714114281779e-15, 28.57499999999997),
+    ),
+    "1e-12 m/s out of a side mouth": (
+        NINE.replace(cushion="factors"),
+        {0: (0.02751373370596951, 0.2391776243459796), 9: (0.02751373370586951, 1.2758951620759125)},
+        physics.Shot(2.19669508558424, 90.0, 0.0, 0.0, -17.17305110446029),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", AT_A_SEAM)
+def test_what_sinks_at_the_seam_of_horn_and_nose_meets_the_horn(name):
+    """Tried: the horn left to the nose for whatever touches the nose line; one ball of a million went through."""
+    table, balls, shot = AT_A_SEAM[name]
+    final = physics.simulate(table, physics.TableState.from_positions(balls), shot).final
+    assert all(place is None or bool(table.contains(*place)) for place in map(final.position, range(16)))

@@ -87,14 +87,17 @@ def meets_facing(jaw, rho, path, lasts):
 
 
 @kernel
-def touches_strip(jaw, rho, s, d):
-    """Whether a centre at a horn touches the nose or the facing: then it is not the horn that it meets.
+def touches_strip(jaw, rho, path, t):
+    """Whether a path at a horn touches the nose or the facing at ``t``: then it is not the horn that it meets.
 
-    A centre that comes along the nose line is found at the horn up to a micrometre before the nose begins, for there
-    the two are a rounded place apart.
+    A path that comes along the nose line is found at the horn up to a micrometre before the nose begins, for there the
+    two are a rounded place apart. One that comes nearer to the line meets the horn there: the nose would miss it.
     """
+    s, d = along(path.x, path.vx, path.hx, t), along(path.y, path.vy, path.hy, t)
     gap, foot = from_facing(jaw, s, d)
-    return (abs(d - rho) <= TOUCH) | ((foot >= 0.0) & (abs(gap - rho) <= TOUCH))
+    comes_nearer = (path.vy + 2.0 * path.hy * t < 0.0) | (path.hy < 0.0)
+    at_nose = (abs(d - rho) <= TOUCH) & ((s >= jaw.nose_end) | (not comes_nearer))
+    return at_nose | ((foot >= 0.0) & (abs(gap - rho) <= TOUCH))
 
 
 @kernel
@@ -112,7 +115,7 @@ def meets_horn(jaw, rho, path, lasts, limit):
     """First t in [0, ``lasts``] at which a path meets a horn; NaN if none, or none up to ``limit``."""
     from_centre = Path(path.x - jaw.nose_end, path.y + jaw.horn, path.vx, path.vy, path.hx, path.hy)
     t = contact(from_centre, lasts, limit, jaw.horn + rho).time
-    if t == t and touches_strip(jaw, rho, along(path.x, path.vx, path.hx, t), along(path.y, path.vy, path.hy, t)):
+    if t == t and touches_strip(jaw, rho, path, t):
         return deeper_in_horn(from_centre, t, lasts, limit, jaw.horn + rho)
     return t
 

@@ -18,7 +18,7 @@ from physics.kernels.detect.boundary import Coming, lines_in_reach
 from physics.kernels.detect.jaws import JawOutline, drops, falling, from_facing, meets_facing, meets_horn
 from physics.kernels.detect.line import crossing
 from physics.kernels.path import Path, along
-from physics.kernels.tolerances import PRESSING, TOUCH
+from physics.kernels.tolerances import TOUCH, UNFELT
 from physics.kernels.workspace import RealWorkspace
 
 NO_MOUTH = -1
@@ -101,7 +101,7 @@ def mouth_of(s, x, y):
 @small_kernel
 def reached(gap, speed, half, on_nose):
     """When a path falls through a nose line; ``on_nose``: its foot lies on the nose, so what overlaps is rounding."""
-    if (speed <= 0.0) & (half <= 0.5 * PRESSING):
+    if (speed <= 0.0) & (half <= UNFELT):
         return math.inf
     return crossing(max(gap, 0.0), speed, half) if on_nose else falling(gap, speed, half)
 
