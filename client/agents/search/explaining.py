@@ -35,11 +35,11 @@ class Explained:
     made: bool
 
 
-def thought_about(rules: EightBall, game: Game, noise: NoiseModel, options: Options, seed: int = 0) -> Thought:
+def thought_about(rules: EightBall, game: Game, noise: float | NoiseModel, options: Options, seed: int = 0) -> Thought:
     """What `search` thinks about a called stroke.
 
     Args:
-        rules: the referee, on its table. game: the position. noise: of the game. seed: of the noise it simulates.
+        rules: the referee, on its table. game: the position. noise: of the game, or its level. seed: of the noise it simulates.
 
     Raises:
         ValueError: the game is over, or what is asked for is a break or a decision: those are not searched for.
@@ -48,6 +48,7 @@ def thought_about(rules: EightBall, game: Game, noise: NoiseModel, options: Opti
         raise ValueError(
             f"phase = {game.phase.value!r}: must be 'play'; breaks were studied beforehand (docs/agents.md)"
         )
+    noise = NoiseModel.of(noise)
     values = Values(Sight(rules.table, noise), noise.by_direction)
     chance = np.random.default_rng(seed)
     budget = Budget(Pace(), options.shots, math.inf if options.shots else options.seconds)
