@@ -39,7 +39,8 @@ def thought_about(rules: EightBall, game: Game, noise: float | NoiseModel, optio
     """What `search` thinks about a called stroke.
 
     Args:
-        rules: the referee, on its table. game: the position. noise: of the game, or its level. seed: of the noise it simulates.
+        rules: the referee, on its table. game: the position. noise: of the game, or its level. seed: of what it
+            simulates.
 
     Raises:
         ValueError: the game is over, or what is asked for is a break or a decision: those are not searched for.
