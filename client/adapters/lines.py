@@ -41,7 +41,7 @@ class Flooded(AgentFailed):
 
 
 class LineProcess:
-    """A running command, in a session of its own.
+    """A running command.
 
     Args:
         command: program and arguments.
@@ -49,6 +49,8 @@ class LineProcess:
         name: what errors call it; the command unless given.
         environment: variables beside those of this process.
         longest: bytes of a line, and of all that it writes unasked.
+        own_session: whether it leads a session of its own, so that what it has started ends with it. Else both belong
+            to the session of this process, and end with that.
 
     Raises:
         AgentUnstartable: it cannot be started. Methods raise `Silent`, `Left` and `Flooded`; all deadlines are of
@@ -63,10 +65,12 @@ class LineProcess:
         name: str | None = None,
         environment: Mapping[str, str] | None = None,
         longest: int = LONGEST_LINE,
+        own_session: bool = True,
     ) -> None:
         self._name = name or str(list(command))
         self._errors = errors
         self._longest = longest
+        self._leads = own_session
         self._pending = b""
         self._begun_unasked = False
         try:
@@ -78,7 +82,7 @@ class LineProcess:
                     stderr=sink,
                     env=os.environ | dict(environment or {}),
                     bufsize=0,
-                    start_new_session=True,
+                    start_new_session=own_session,
                 )
         except OSError as error:
             raise AgentUnstartable(f"{self._name} cannot be started: {error}") from error
@@ -140,7 +144,10 @@ class LineProcess:
     def interrupt(self) -> None:
         """Kill it and what it has started, from any thread; whoever waits for its answer sees it end."""
         with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(self._process.pid, signal.SIGKILL)
+            if self._leads:
+                os.killpg(self._process.pid, signal.SIGKILL)
+            else:
+                self._process.kill()
 
     def stop(self) -> None:
         """End it: its input is closed, then SIGTERM, then SIGKILL to it and what it has started."""

@@ -40,6 +40,8 @@ log = logging.getLogger("pooliad.agent")
 LOGS = "POOLIAD_AGENT_LOGS"
 """Environment variable: the directory for the standard error of commands. Unless it is set every game gets a temporary
 one, which stays only if something was written."""
+HOSTED = "POOLIAD_HOSTED"
+"""Environment variable: set where this process is an event's to end, with all that it has started."""
 SILENCE = 60.0
 """Seconds a command may take where no clock runs."""
 SHOWN = 200
@@ -110,7 +112,7 @@ class StdioAgent(Agent):
     def _running(self, view: View, deadline: float) -> LineProcess:
         """The command, started and reading if it did not run."""
         if self._process is None:
-            process = self._process = LineProcess(self._command, self._errors)
+            process = self._process = LineProcess(self._command, self._errors, own_session=HOSTED not in os.environ)
             self._stop = weakref.finalize(self, process.stop)
             try:
                 process.send(_message("game_started", game=view.game, view=_plain(view)), deadline)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from client.adapters.stdio import LOGS
+from client.adapters.stdio import HOSTED, LOGS
 from client.agents.registry import load
 from client.arena.confine import confined
 from client.arena.directory import EventError, file_name
@@ -100,7 +100,7 @@ def _tried(candidate: Candidate) -> str | None:
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-        env=os.environ | ({} if logs is None else {LOGS: logs}) | dict(hosting.environment),
+        env=os.environ | {HOSTED: "1"} | ({} if logs is None else {LOGS: logs}) | dict(hosting.environment),
         start_new_session=True,
     )
     seconds = max(SECONDS, hosting.answer_seconds)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from client.adapters.lines import Flooded, Left, LineProcess, Silent
-from client.adapters.stdio import LOGS
+from client.adapters.stdio import HOSTED, LOGS
 from client.arena.confine import confined
 from client.arena.cores import CoreLease
 from client.arena.hosting import Hosting
@@ -134,7 +134,7 @@ class ProcessSeat(Session):
     def _variables(self) -> dict[str, str]:
         """What its environment has beside ours; a command's own standard error lies beside the log."""
         logs = {} if self._log is None else {LOGS: str(self._log.with_suffix(""))}
-        return logs | _threads(self._hosting.cores) | dict(self._hosting.environment)
+        return {HOSTED: "1"} | logs | _threads(self._hosting.cores) | dict(self._hosting.environment)
 
     def _action(self, line: str) -> Action:
         """What the line says; raises what ``parse`` and ``Action.from_dict`` raise."""

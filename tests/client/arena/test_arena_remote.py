@@ -2,6 +2,8 @@
 
 import json
 import sys
+import time
+from pathlib import Path
 
 import httpx2
 import pytest
@@ -110,7 +112,24 @@ for line in sys.stdin:
         print("asked", file=open(sys.argv[1], "a"))
         print("nonsense", flush=True)
 """
-SILENT = "import sys, time; open(sys.argv[1], 'a').write('asked\\n'); time.sleep(600)"
+SILENT = "import os, sys, time; open(sys.argv[1], 'a').write(f'{os.getpid()}\\n'); time.sleep(600)"
+
+
+def runs(pid: int) -> bool:
+    """Whether a process is there and no zombie."""
+    try:
+        status = Path(f"/proc/{pid}/stat").read_text()
+    except FileNotFoundError:
+        return False
+    return status.rpartition(")")[2].split()[0] != "Z"
+
+
+def all_end(pids: list[int]) -> bool:
+    """Whether they all end within a loaded machine's time to end what was killed."""
+    deadline = time.monotonic() + 60.0
+    while any(map(runs, pids)) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    return not any(map(runs, pids))
 
 
 @pytest.mark.parametrize(
@@ -129,7 +148,10 @@ def test_an_agent_meets_the_same_patience_at_a_server(tmp_path, hall, text, reas
     assert [(one.reason.value, one.players[one.winner]) for one in ledger.event.counted] == [(reason, "random")] * 2
     lines = (tmp_path / "asked").read_text().splitlines()
     assert len(lines) in asked  # once more if it came so far when it was tried before the first game
-    assert lines[0] == "asked" or "no choice is open" in lines[0]
+    if text is SILENT:
+        assert all_end([int(pid) for pid in lines]), "seen: the command outlived its host"
+    else:
+        assert lines[0] == "asked" or "no choice is open" in lines[0]
 
 
 def test_an_agent_that_crashes_loses_for_that_reason_at_a_server_too(tmp_path, hall):
