@@ -14,12 +14,12 @@ import physics
 from benchmarks.command import main
 from benchmarks.recording import Row, Tables
 from client.agents.search.breaks import Break, best_break, worth_of_breaking
-from client.agents.search.evaluate import SIGMAS
 from client.agents.search.sight import Sight
 from client.agents.search.value import Values
 from physics import Table
 from physics.shot import FIELDS
 from referee import Action, Decision, EightBall, Game, Phase, RuleId, Ruling
+from referee.play.noise import OLYMPIAD_SIGMAS
 
 SEED = 20
 LEVELS = (0.0, 1.0, 5.0)
@@ -111,7 +111,7 @@ def broken(
     state = game.state.moved(0, one.place)
     shot = one.stroke(rules.table, state)
     strokes = np.array([[getattr(shot, name) for name in FIELDS]] * (copies if level > 0.0 else 1))
-    strokes = strokes + level * SIGMAS * chance.standard_normal(strokes.shape)
+    strokes = strokes + level * OLYMPIAD_SIGMAS.row() * chance.standard_normal(strokes.shape)
     strokes[:, 0], strokes[:, 2] = (
         np.clip(strokes[:, 0], 0.0, rules.table.v_max),
         np.clip(strokes[:, 2], 0.0, rules.table.theta_max),
