@@ -10,7 +10,7 @@ from physics.kernels import tolerances
 NOT_OF_THE_RULE = {
     *("STEPS_PER_EVENT", "ROUND_LIMIT"),
     *("DEEPER", "SOLVER_STEPS", "SETTLED_STEPS", "ROOT_RESIDUAL"),
-    "ROUNDING_ACROSS",
+    *("ROUNDING_ACROSS", "GRAZE", "UNFELT"),
     *("LIFT", "PRESS_TIME", "RAIL_CAP", "PERCHED_AFTER"),
 }
 """Limits that no shot reaches, what belongs to the solver, what only jaws ask for, and flight's: of these
