@@ -6,7 +6,7 @@ Issue 17, "The page, playing" and "Measured": structure, not pixels.
 from typing import Any
 
 import pytest
-from playwright.sync_api import Page
+from playwright.sync_api import Page, expect
 from support.axe import violations
 from support.play_along import Match, act, next_turn
 
@@ -45,7 +45,8 @@ def seated(page: Page, server: Any, **terms: Any) -> Match:
     assert made.status_code == 201, made.text
     page.goto(f"{server.url}/#/play")
     page.get_by_role("region", name="Your turn").wait_for()
-    page.locator(".presence", has_text="disconnected").wait_for()  # what comes to the board later could move the table
+    # What comes to the board later could move the table: the other is away, and the page has found its own player.
+    expect(page.locator(".presence", has_text="disconnected")).to_have_count(1, timeout=60_000)
     page.locator(".clock.running").wait_for()
     return Match(server, made.json(), [me["token"], other["token"]])
 
