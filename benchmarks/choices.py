@@ -17,7 +17,7 @@ from benchmarks.lockstep import MatchUp, play
 from benchmarks.recording import Row, Tables
 from client.agents.registry import options_of
 from client.agents.search.budget import Budget, Pace
-from client.agents.search.evaluate import Evaluator, Judge, answered
+from client.agents.search.evaluate import Evaluator, Responder, answered
 from client.agents.search.explaining import thought_about
 from client.agents.search.options import Options
 from client.agents.search.shots import Shots
@@ -92,7 +92,7 @@ def judged(table: str, noise: float, game: Game, player: str, number: int, copie
     fresh = np.random.default_rng([SEED, number])
     evaluator = Evaluator(rules.table, values, noise, fresh, Budget(Pace()), kitchen=False)
     shots = _shots(game, thought.action)
-    worth = answered(evaluator.noisy(shots, copies), Judge(rules.table, values, physics.simulate_batch))
+    worth = answered(evaluator.noisy(shots, copies), Responder(rules.table, values, physics.simulate_batch))
     return float(worth.mean()), thought.worth, thought.simulated
 
 

@@ -18,7 +18,7 @@ import physics
 from benchmarks.yardstick import Yardstick, checkout
 from client.agent import Agent, AgentFactory
 from client.agents.search import SearchAgent
-from client.agents.search.evaluate import Judge, Question, Thinking
+from client.agents.search.evaluate import Question, Responder, Thinking
 from client.agents.search.sight import Sight
 from client.agents.search.thinking import GROUPS
 from client.agents.search.value import Values
@@ -212,7 +212,7 @@ def play(match: MatchUp) -> list[Played]:
     """All games of a match-up, in order of pairs."""
     table = Table.named(match.table)
     rules, noise = EightBall(table), NoiseModel(match.noise)
-    judge = Judge(table, Values(Sight(table, match.noise), match.noise), physics.simulate_batch)
+    responder = Responder(table, Values(Sight(table, match.noise), match.noise), physics.simulate_batch)
     with contextlib.ExitStack() as stack:
         players = [stack.enter_context(_player(name, match.seed)) for name in match.players]
         coming = (
@@ -221,11 +221,11 @@ def play(match: MatchUp) -> list[Played]:
             for seeds in [MatchSeed.of(1000 * match.seed + pair)]
             for leg in (0, 1)
         )
-        played = list(_advance(coming, judge))
+        played = list(_advance(coming, responder))
     return sorted(played, key=lambda one: (one.pair, one.breaker))
 
 
-def _advance(coming: Iterator[functools.partial[Running]], judge: Judge) -> Iterator[Played]:
+def _advance(coming: Iterator[functools.partial[Running]], responder: Responder) -> Iterator[Played]:
     """Let games advance until all are over; each as it ends."""
     running: list[Running] = []
     while True:
@@ -234,7 +234,7 @@ def _advance(coming: Iterator[functools.partial[Running]], judge: Judge) -> Iter
         if not running:
             return
         for some in _in_batches(running):
-            answers = judge.answers([one.question for one in some if one.question is not None])
+            answers = responder.answers([one.question for one in some if one.question is not None])
             for one, answer in zip(some, answers, strict=True):
                 one.advance(answer)
         yield from (one.played for one in running if one.question is None)

@@ -8,7 +8,7 @@ import pytest
 import physics
 from benchmarks import choices, strength
 from benchmarks.lockstep import MatchUp, Played, Turn, play
-from client.agents.search.evaluate import Judge, Question
+from client.agents.search.evaluate import Question, Responder
 from client.agents.search.sight import Sight
 from client.agents.search.value import Values
 
@@ -33,7 +33,7 @@ def test_games_that_advance_together_are_those_played_alone():
 
 def test_answers_to_many_questions_are_the_answers_to_each():
     table = physics.Table.olympiad()
-    judge = Judge(table, Values(Sight(table, 1.0), 1.0), physics.simulate_batch)
+    responder = Responder(table, Values(Sight(table, 1.0), 1.0), physics.simulate_batch)
     positions = np.full((1, 16, 2), np.nan)
     positions[0, [0, 1, 8, 9]] = (0.5, 1.9), (0.3, 1.8), (0.8, 1.2), (0.9, 0.4)
 
@@ -44,7 +44,7 @@ def test_answers_to_many_questions_are_the_answers_to_each():
         return Question(before, strokes, np.zeros(count, np.int8), ball, pocket, kitchen, judged)
 
     asked = [question(3, True), question(5, False), question(4, True, kitchen=True)]
-    together, alone = judge.answers(asked), [judge.answer(one) for one in asked]
+    together, alone = responder.answers(asked), [responder.answer(one) for one in asked]
     assert together[0] == pytest.approx(alone[0])
     assert together[2] == pytest.approx(alone[2])
     assert np.array_equal(together[1].positions, alone[1].positions, equal_nan=True)

@@ -8,7 +8,7 @@ import pytest
 import physics
 from client.agents.search import banks, polish
 from client.agents.search.budget import Budget, Pace
-from client.agents.search.evaluate import Evaluator, Judge, answered
+from client.agents.search.evaluate import Evaluator, Responder, answered
 from client.agents.search.finalists import Finalists
 from client.agents.search.jumps import ELEVATIONS, leaps
 from client.agents.search.refine import falls
@@ -28,7 +28,7 @@ def at(table, balls, noise=1.0):
     positions = np.full((1, 16, 2), np.nan)
     for ball, place in balls.items():
         positions[0, ball] = place
-    return evaluator, Judge(table, values, physics.simulate_batch), Tables(positions, np.zeros(1, np.int8))
+    return evaluator, Responder(table, values, physics.simulate_batch), Tables(positions, np.zeros(1, np.int8))
 
 
 BEHIND = {0: (0.25, 0.4), 1: (0.56, 1.0), 9: (0.4, 0.68), 10: (0.7, 0.8), 11: (0.3, 1.2), 8: (0.9, 2.0)}
@@ -36,13 +36,13 @@ BEHIND = {0: (0.25, 0.4), 1: (0.56, 1.0), 9: (0.4, 0.68), 10: (0.7, 0.8), 11: (0
 
 def test_aimed_banks_are_pocketed_more_often_than_those_come_upon():
     """Under the noise, over the best of both: the middle of the directions that do it, at more speeds."""
-    evaluator, judge, tables = at(OLYMPIAD, BEHIND)
-    swept = answered(sweep(evaluator, tables, 21, False), judge)
-    worth = answered(evaluator.as_meant(swept), judge)
-    better = answered(banks.aimed(evaluator, swept, worth, 12), judge)
+    evaluator, responder, tables = at(OLYMPIAD, BEHIND)
+    swept = answered(sweep(evaluator, tables, 21, False), responder)
+    worth = answered(evaluator.as_meant(swept), responder)
+    better = answered(banks.aimed(evaluator, swept, worth, 12), responder)
     assert len(better) > 12
     assert (better.margin >= 0.0).all()
-    assert falls(better, answered(evaluator.simulated(better), judge)).mean() > 0.9
+    assert falls(better, answered(evaluator.simulated(better), responder)).mean() > 0.9
 
     def best_share(shots):
         spread = shots[np.repeat(np.arange(len(shots)), 60)]
@@ -88,17 +88,19 @@ def test_nothing_hidden_nothing_jumped():
 
 def test_polish_finds_a_better_stroke():
     """From a pot that is aimed badly and far too hard, by 400 copies that had no part in the choice."""
-    evaluator, judge, tables = at(OLYMPIAD, {0: (0.5, 0.9), 1: (0.3, 0.5), 2: (0.8, 1.7), 9: (0.9, 0.4), 8: (0.2, 1.8)})
+    evaluator, responder, tables = at(
+        OLYMPIAD, {0: (0.5, 0.9), 1: (0.3, 0.5), 2: (0.8, 1.7), 9: (0.9, 0.4), 8: (0.2, 1.8)}
+    )
     pots = evaluator.values.sight.pots(tables, 1)
     bad = np.array([[4.5, pots.phi[0, 0] + 0.6 * pots.margin[0, 0], 0.0, 6.0, 0.0]])
     shots = evaluator.values.sight.raised(
         Shots(tables, np.zeros(1, np.int64), bad, pots.ball[0], pots.pocket[0], pots.margin[0])
     )
-    first = found = Finalists.of(shots, answered(evaluator.noisy(shots, 100), judge))
+    first = found = Finalists.of(shots, answered(evaluator.noisy(shots, 100), responder))
     for spread, copies in polish.rounds(6000):
-        found = answered(polish.better(evaluator, found, spread, copies, np.random.default_rng(3)), judge).best(8)
+        found = answered(polish.better(evaluator, found, spread, copies, np.random.default_rng(3)), responder).best(8)
     both = first.shots.joined(found.best(1).shots)
-    before, after = answered(evaluator.noisy(both, 400), judge).mean(axis=1)
+    before, after = answered(evaluator.noisy(both, 400), responder).mean(axis=1)
     assert after > before + 0.05
 
 

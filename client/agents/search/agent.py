@@ -8,7 +8,7 @@ from client.agents.chance import generator
 from client.agents.search import breaks
 from client.agents.search.budget import Budget, Pace, allowance
 from client.agents.search.engine import geometry
-from client.agents.search.evaluate import Evaluator, Judge, Thinking, answered
+from client.agents.search.evaluate import Evaluator, Responder, Thinking, answered
 from client.agents.search.options import Options
 from client.agents.search.sight import Sight
 from client.agents.search.thinking import Thought, TurnSearch
@@ -50,16 +50,16 @@ class SearchAgent(Agent):
 
     def choose(self, view: View) -> Action:
         """The best stroke, or the decision that leads to the best position."""
-        return answered(self.thinking(view), self.judge())
+        return answered(self.thinking(view), self.responder())
 
     @property
     def counts_shots_alone(self) -> bool:
         """Whether no clock limits it: then who else thinks meanwhile changes nothing."""
         return self._options.shots > 0
 
-    def judge(self) -> Judge:
+    def responder(self) -> Responder:
         """What answers this agent's questions: the physics, counted, and the values of this game."""
-        return Judge(self._rules.table, self._values, self.simulator.simulate_batch)
+        return Responder(self._rules.table, self._values, self.simulator.simulate_batch)
 
     def thinking(self, view: View) -> Thinking[Action]:
         """The train of thought about a turn; its result is what `choose` answers."""

@@ -62,7 +62,7 @@ Thinking = Generator[Question, Answer, Result]
 """A train of thought that ends with a result."""
 
 
-class Judge:
+class Responder:
     """Answers questions: plays the strokes, rules on them and values what they leave.
 
     Args:
@@ -117,13 +117,13 @@ def part_of(batch: Batch, rows: slice) -> Batch:
     return Batch(batch.positions[rows], batch.pocket[rows], batch.status[rows], batch.facts[rows])
 
 
-def answered(thinking: Thinking[Result], judge: Judge) -> Result:
+def answered(thinking: Thinking[Result], responder: Responder) -> Result:
     """Run a train of thought to its end; raises what the physics raises, into it first."""
     try:
         question = next(thinking)
         while True:
             try:
-                answer = judge.answer(question)
+                answer = responder.answer(question)
             except Exception as error:
                 question = thinking.throw(error)
             else:

@@ -7,7 +7,7 @@ import numpy as np
 
 import physics
 from client.agents.search.budget import Budget, Pace
-from client.agents.search.evaluate import Evaluator, Judge, answered
+from client.agents.search.evaluate import Evaluator, Responder, answered
 from client.agents.search.options import Options
 from client.agents.search.sight import Sight
 from client.agents.search.thinking import Considered, Thought, TurnSearch
@@ -56,7 +56,7 @@ def thought_about(rules: EightBall, game: Game, noise: float | NoiseModel, optio
     kitchen = game.cue_ball_in_hand is CueBallArea.KITCHEN
     evaluator = Evaluator(rules.table, values, noise, chance, budget, kitchen)
     turn = TurnSearch(rules, game, evaluator, options, chance)
-    return answered(turn.best(), Judge(rules.table, values, physics.simulate_batch))
+    return answered(turn.best(), Responder(rules.table, values, physics.simulate_batch))
 
 
 def explained(rules: EightBall, game: Game, stroke: Considered) -> Explained:

@@ -40,7 +40,7 @@ class Pots:
 
 
 @dataclass(frozen=True, slots=True)
-class Terms:
+class Valuation:
     """How tables are valued.
 
     Attributes:
@@ -70,7 +70,9 @@ class Sight:
         )
         return found
 
-    def worths(self, tables: Tables, before: Floats, hand: NDArray[np.bool_], race: Race, terms: Terms) -> Floats:
+    def worths(
+        self, tables: Tables, before: Floats, hand: NDArray[np.bool_], race: Race, valuation: Valuation
+    ) -> Floats:
         """(n,): what each table is worth to its shooter in a race.
 
         Args:
@@ -79,7 +81,7 @@ class Sight:
         """
         found = np.empty(len(tables))
         shooters = (np.ascontiguousarray(tables.group, np.int8), hand)
-        given = (self.sigma, terms.kitchen, -math.log(race.habits.after_pot), terms.pots)
+        given = (self.sigma, valuation.kitchen, -math.log(race.habits.after_pot), valuation.pots)
         positions = np.ascontiguousarray(tables.positions)
         memory = self._kernels.new_memory()
         before = np.ascontiguousarray(before)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from client.agents.search.race import race
 from client.agents.search.shots import Floats, Groups, Tables
-from client.agents.search.sight import Sight, Terms
+from client.agents.search.sight import Sight, Valuation
 from referee.rules.batch_rulings import OPEN, Verdicts
 
 
@@ -25,7 +25,7 @@ class Values:
         continues, group = verdicts.continues[going], verdicts.group[going]
         mover = np.where(continues | (group == OPEN), group, 1 - group).astype(np.int8)
         left = Tables(positions[going], mover)
-        found = self.sight.worths(left, before[going], verdicts.fouled[going], race(self.noise), Terms())
+        found = self.sight.worths(left, before[going], verdicts.fouled[going], race(self.noise), Valuation())
         worth[going] = np.where(continues, found, 1.0 - found)
         return worth
 
@@ -35,9 +35,9 @@ class Values:
         Args:
             group: the shooter's. hand: whether the cue ball is in hand; kitchen: the least y it may be put at then.
         """
-        return self.sight.worths(Tables(positions, group), positions, hand, race(self.noise), Terms(kitchen))
+        return self.sight.worths(Tables(positions, group), positions, hand, race(self.noise), Valuation(kitchen))
 
     def without_pot(self, tables: Tables) -> Floats:
         """What each position is worth to its shooter when no ball is potted: a safety, or a miss."""
         nowhere = np.zeros(len(tables), bool)
-        return self.sight.worths(tables, tables.positions, nowhere, race(self.noise), Terms(pots=False))
+        return self.sight.worths(tables, tables.positions, nowhere, race(self.noise), Valuation(pots=False))
