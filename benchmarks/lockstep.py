@@ -37,7 +37,7 @@ NO_CLOCK = (ClockView(seconds_left=None, running=True), ClockView(seconds_left=N
 
 @dataclass(frozen=True, slots=True)
 class MatchUp:
-    """Who plays whom, and where.
+    """Two players, and the games they play.
 
     Attributes:
         players: by name; `NAME@COMMIT` is the player of that commit.

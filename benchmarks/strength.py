@@ -33,7 +33,7 @@ FULL = tuple(
 )
 """What `pooliad bench strength` plays: hours of processor time in full."""
 NO_POT, HARD, FAIR = 0.1, 0.5, 0.8
-"""Chances of the best straight pot below which there is none, it is hard, or fair; above it is easy."""
+"""Limits of the best straight pot's chance. Below the first there is no pot; then hard, fair and easy ones."""
 CAUSES = ("no_pot", "hard", "fair", "easy_missed", "easy_declined")
 DECILES = 10
 
@@ -122,7 +122,7 @@ def end_row(match: MatchUp, games: Sequence[Played], player: int) -> Row:
 
 
 def _ends(game: Played, player: int) -> list[Turn]:
-    """The strokes after which a player left the table; the stroke that won is none."""
+    """The strokes after which a player left the table, but for the stroke that won."""
     mine = [turn for turn in game.turns if turn.seat == player and not turn.goes_on]
     return mine[:-1] if game.winner == player and mine and mine[-1] is game.turns[-1] else mine
 

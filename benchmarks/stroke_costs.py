@@ -108,7 +108,7 @@ async def _compare(sides: list[Side], games: int, rounds: int, seconds: float) -
 
 
 async def _warmed_up(side: Side, games: int) -> None:
-    """So many games, or connections, each with some strokes behind it."""
+    """Begin ``games`` games, or connections to the bare endpoint, and play some strokes in each."""
     if side.name == BARE:
         side.players = [Bare(side.port) for _ in range(games)]
     else:

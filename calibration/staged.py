@@ -26,7 +26,7 @@ NEAR, NEAR_METRES = 25.0, 0.025
 STRAY, NO_STRAY = 6.0, 4.5
 """Standard deviations of a sample that is left out after the fit, and of those beside it at most."""
 SAMPLES_PER_STRAY = 100
-"""One more of a shot may be left out for so many."""
+"""A shot may lose one sample, and one more for every hundred it has."""
 MILD = 4.0
 """A shot whose root mean square is above this counts less in a stage, so that one in a wrong order moves nobody."""
 MOST_ROUNDS = 14
@@ -256,7 +256,7 @@ def match(
 
 
 def _search_orders(joint: JointFit, staged: list[StagedShot], rng: np.random.Generator, observer: Observer) -> None:
-    """Look for better orders of events of the shots that fit worst, until there are none."""
+    """Try other orders of events for the shots that fit worst, as long as that lowers the cost."""
     for number in range(MOST_RELEASES):
         caught = _caught(joint, staged)
         observer(f"{len(caught)} shots caught between two orders of events", 0.85 + 0.05 * number)

@@ -54,7 +54,7 @@ def explain(
 
 
 def _situation(file: Path, shot: int | None, table: str) -> "tuple[EightBall, Game, NoiseModel, Action | None]":
-    """Referee, game, noise, and what was played there if that is known; leaves the command when there is none."""
+    """Referee, game, noise, and the action played there if it is known. A file without a position ends the command."""
     from client.cli.agent import read_position
     from referee import EightBall
     from referee.play import NoiseModel

@@ -152,7 +152,7 @@ Simulation = Annotated[Command, Depends(_simulation)]
 
 
 def sender_of(request: Request) -> Sender:
-    """Whoever asks for messages, looked up by the transaction that looks for them."""
+    """The sender of a poll, looked up by the transaction that looks for them."""
     return lambda connection: _identified(connection, request)
 
 
@@ -163,7 +163,7 @@ async def is_gone(request: Request) -> bool:
 
 
 def move_of(request: Request) -> Move:
-    """A player's move: whoever it is from is looked up by the transaction that looks at the game."""
+    """A player's move; its sender is looked up by the transaction that looks at the game."""
     return lambda connection: _sent(request, _identified(connection, request))
 
 

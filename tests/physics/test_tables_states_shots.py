@@ -251,7 +251,7 @@ print(numba.njit(lambda a: numpy.dot(a, a))(numpy.arange(4.0)), "scipy.linalg" i
 
 
 def test_the_kernels_load_without_linear_algebra_and_leave_it_to_others():
-    """numba imports scipy to see whether there is a BLAS; whoever uses one in the same process still has it."""
+    """numba imports scipy to see whether there is a BLAS; other code of the process can still use it."""
     pytest.importorskip("scipy")
     done = subprocess.run([sys.executable, "-c", LINEAR_ALGEBRA], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "14.0 True"

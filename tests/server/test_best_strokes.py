@@ -12,7 +12,7 @@ from tournament.luck import VALUE
 
 
 def conceded(table, strokes):
-    """A game of so many strokes at most, of players who aim at ghost balls; its id."""
+    """The id of a game between players who aim at ghost balls; it has at most ``strokes`` strokes."""
     game, potter = table.game, Potter("ann")
     while strokes and table.is_running:
         mover, view = table.mover()

@@ -157,7 +157,7 @@ def test_whoever_waits_too_long_for_the_writers_place_is_told(shared, monkeypatc
 
 
 def test_nobody_is_answered_before_the_commit(shared):
-    """Whoever has an answer finds what it wrote through any other connection, while the others are still told."""
+    """A client with an answer finds what it wrote through any other connection, before the others are answered."""
 
     def asked(name):
         assert shared.database.carry_out(enter(name)) == name
@@ -190,7 +190,7 @@ def test_others_who_write_are_waited_for_and_nobody_is_forgotten(shared):
 
 
 def test_each_is_carried_out_in_its_own_context(shared):
-    """The log names the request that a line belongs to, whoever wrote for it."""
+    """A line of the log names its own request, although another thread wrote for it."""
     request: ContextVar[str] = ContextVar("request")
 
     def asked(name):

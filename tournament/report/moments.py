@@ -51,7 +51,7 @@ class Moment:
 
 
 def turning_points(records: Mapping[str, Source], most: int = MOST) -> tuple[Moment, ...]:
-    """At most one moment of a game, the greatest change first; the last stroke of a game is none.
+    """The greatest changes first, at most one of a game, and never a game's last stroke.
 
     Args:
         records: where each record is to be read, by what results call it.

@@ -13,7 +13,7 @@ SPEEDS = (0.7, 0.8, 0.9, 1.0, 1.2, 1.45)
 TRIES = 9
 """Directions."""
 REACH, LEAST, MOST = 4.0, 0.4, 1.5
-"""Directions are tried so many standard deviations to either side, at least and at most so many degrees: a pot that
+"""How far to either side directions are tried: standard deviations, and the least and most degrees. A pot that
 needs less than the least is nobody's choice, and further off the sweep has strokes of its own."""
 COST = len(SPEEDS) * TRIES
 """Simulated shots for each stroke that is aimed."""

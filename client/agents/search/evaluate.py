@@ -1,7 +1,7 @@
 """How good strokes are: simulated as meant, or many times under the game's noise, ruled on, and valued.
 
-Thinking is a generator: it yields a `Question`, and is sent the answer. Whoever runs it answers (`answered`), for one
-turn or for hundreds of games that advance together (`benchmarks/lockstep.py`).
+Thinking is a generator: it yields a `Question` and is sent the answer. `answered` runs it for one turn;
+`benchmarks/lockstep.py` runs hundreds of games together.
 """
 
 from collections.abc import Callable, Generator, Sequence

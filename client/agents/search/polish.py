@@ -35,7 +35,7 @@ FURTHEST = 18.0
 
 
 def rounds(shots: float) -> Iterator[tuple[float, int]]:
-    """Spread (a share of the first) and copies of the rounds that so many shots pay for."""
+    """The rounds that ``shots`` pay for: the spread of each, as a share of the first, and its copies."""
     spread, copies = 1.0, COPIES
     for _ in range(ROUNDS):
         shots -= PARENTS * (CHILDREN + 1) * copies

@@ -18,8 +18,8 @@ straight; how hard its layout is, minus the sum of the logarithms of its balls' 
 the best pot takes to either side alike, rad."""
 
 MADE, MISSED, SAFE, HIDDEN = range(4)
-"""Tables of a race: the shooter has just made a ball and needs so many more; misses; plays safe; plays safe without
-seeing a ball."""
+"""Situations of a race: the shooter has made a ball and plays on, misses, plays safe, or plays safe without seeing a
+ball."""
 
 WIDTH, LENGTH, RADIUS, NOSE, CUE_LENGTH, MOUTHS = range(6)
 """Places in the row of a table (`engine.table_row`), m; from MOUTHS on, PER_POCKET numbers a pocket:"""

@@ -21,7 +21,7 @@ from server.store.tables import games, notices
 Sender = Callable[[Connection], Caller]
 """Looks up who sent a request; may raise `Unauthorized`."""
 IsGone = Callable[[], Awaitable[bool]]
-"""Whether whoever asked has hung up."""
+"""Whether the client has hung up."""
 
 
 async def poll(context: Context, sender: Sender, wait: Callable[[], float], is_gone: IsGone) -> bytes | None:

@@ -12,7 +12,7 @@ from server.services.play.live_game import LiveGame, find
 from server.services.runtime.context import Context
 
 WIDTH: Final = 800
-"""Pixels of a picture; whoever shows previews scales them down."""
+"""Pixels of a picture; sites that show previews scale it down."""
 DRAWS_PNG: Final = find_spec("resvg_py") is not None
 """Whether the extra `pictures` is there. Few who show previews take SVG."""
 

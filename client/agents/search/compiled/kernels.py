@@ -26,7 +26,7 @@ BLOCKED = 0.8
 """Chance that a ball no pocket is open for will be made when its turn comes: others move by then, or it is banked."""
 
 STEPS, CLOSE = 20, 1e-6
-"""The edge of an entrance is looked for in so many steps at most, and to so many metres; four to six do."""
+"""Most steps of the search for the edge of an entrance, and its precision in metres; four to six steps are usual."""
 NARROWEST, WIDEST = 5e-5, 1.0
 """rad to either side: an entrance that is narrower is closed; a ball that hangs in the jaws may go anywhere."""
 
