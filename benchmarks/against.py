@@ -4,22 +4,19 @@ What a change of form must not change. Two processes, one a commit, play the sam
 over pairs of neighbouring runs, so that a loaded machine slows both; instructions are counted by callgrind.
 """
 
-import json
-import os
 import pickle
 import shutil
 import statistics
-import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
 import physics
 from benchmarks import scenes, speed
+from benchmarks.checkouts import Child, checkout
 from benchmarks.command import main
 from benchmarks.recording import ROOT, Row, Tables
 
@@ -38,19 +35,15 @@ Scenes = dict[str, dict[str, Any]]
 
 def measure(full: bool) -> Tables:
     """All tables of this benchmark."""
-    with tempfile.TemporaryDirectory() as name:
+    with checkout(BASE) as base, tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        subprocess.run(["git", "worktree", "add", "--detach", folder / "base", BASE], cwd=ROOT, check=True)
-        try:
-            sides = {"base": Side(folder, folder / "base"), "now": Side(folder, ROOT)}
-            shots, pairs = (8_000 if full else 2_000), 31
-            return {
-                "compile": list(compiling(sides, 3 if full else 1)),
-                "instructions": list(instructions(sides, every_scene(shots // COUNTED))),
-                "time": list(times(sides, every_scene(shots), pairs)),
-            }
-        finally:
-            subprocess.run(["git", "worktree", "remove", "--force", folder / "base"], cwd=ROOT, check=True)
+        sides = {"base": Side(folder, base), "now": Side(folder, ROOT)}
+        shots, pairs = (8_000 if full else 2_000), 31
+        return {
+            "compile": list(compiling(sides, 3 if full else 1)),
+            "instructions": list(instructions(sides, every_scene(shots // COUNTED))),
+            "time": list(times(sides, every_scene(shots), pairs)),
+        }
 
 
 def every_scene(shots: int) -> Scenes:
@@ -103,51 +96,12 @@ class Side:
         shutil.rmtree(self._cache)
         self._cache.mkdir()
 
-    def start(self, given: Scenes, plain: bool = False, under: tuple[str, ...] = ()) -> "Child":
+    def start(self, given: Scenes, plain: bool = False, under: tuple[str, ...] = ()) -> Child:
         """A process that plays ``given``; ``under``: a command that runs it."""
         path = self._folder / "scenes"
         path.write_bytes(pickle.dumps(given))
-        places = {"PYTHONPATH": str(self.tree), "POOLIAD_CACHE_DIR": str(self._cache)}
-        command = [*under, sys.executable, "-P", str(CHILD), str(path)]
-        return Child(command, os.environ | places | (PLAIN if plain else {}), self.tree)
-
-
-class Child:
-    """A process that answers commands; its first answer is what starting cost.
-
-    Attributes:
-        compile: CPU s.
-    """
-
-    def __init__(self, command: list[str], environment: dict[str, str], tree: Path) -> None:
-        pipe = subprocess.PIPE
-        self._process = subprocess.Popen(command, env=environment, cwd=tree, stdin=pipe, stdout=pipe, text=True)
-        said = self._read()
-        if Path(said["file"]).parents[1] != tree.resolve():
-            raise RuntimeError(f"physics of {tree} was asked for, {said['file']} was loaded")
-        self.compile = float(said["compile"])
-
-    def ask(self, command: str, scene: str) -> Any:
-        """The answer to one command."""
-        assert self._process.stdin is not None
-        self._process.stdin.write(f"{command} {scene}\n")
-        self._process.stdin.flush()
-        return self._read()
-
-    def _read(self) -> Any:
-        assert self._process.stdout is not None
-        line = self._process.stdout.readline()
-        if not line:
-            raise RuntimeError(f"{self._process.args}: ended with {self._process.wait()}")
-        return json.loads(line)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        assert self._process.stdin is not None
-        self._process.stdin.close()
-        self._process.wait()
+        places = {"POOLIAD_CACHE_DIR": str(self._cache)} | (PLAIN if plain else {})
+        return Child(self.tree, (str(CHILD), str(path)), environment=places, under=under)
 
 
 def compiling(sides: dict[str, Side], pairs: int) -> Iterator[Row]:
@@ -157,7 +111,7 @@ def compiling(sides: dict[str, Side], pairs: int) -> Iterator[Row]:
         for name, side in sides.items():
             side.forget()
             with side.start({}) as child:
-                found[name].append(child.compile)
+                found[name].append(float(child.first["compile"]))  # CPU s
     ratios = [now / base for base, now in zip(found["base"], found["now"], strict=True)]
     yield {
         "pairs": pairs,
@@ -190,12 +144,12 @@ def counted(side: Side, given: Scenes) -> dict[str, int]:
         return {}
     with side.start(given, plain=True) as child:  # compiled where it is fast
         for scene in given:
-            child.ask("time", scene)
+            child.ask(f"time {scene}")
     with tempfile.TemporaryDirectory() as out:
         tool = ("valgrind", "--tool=callgrind", "--instr-atstart=no", f"--callgrind-out-file={out}/out", "-q")
         with side.start(given, plain=True, under=tool) as child:
             for scene in given:
-                child.ask("count", scene)
+                child.ask(f"count {scene}")
         dumps = {int(path.suffix[1:]): path.read_text() for path in Path(out).glob("out.*")}
     return {scene: total(dumps[place]) for place, scene in enumerate(given, 1)}
 
@@ -209,8 +163,8 @@ def times(sides: dict[str, Side], given: Scenes, pairs: int) -> Iterator[Row]:
     """CPU time of both, in turn: the median over pairs of their ratio; whether all outputs have the same bits."""
     with sides["base"].start(given) as base, sides["now"].start(given) as now:
         for scene in given:
-            same = base.ask("bits", scene) == now.ask("bits", scene)
-            rows = [(base.ask("time", scene), now.ask("time", scene)) for _ in range(pairs)]
+            same = base.ask(f"bits {scene}") == now.ask(f"bits {scene}")
+            rows = [(base.ask(f"time {scene}"), now.ask(f"time {scene}")) for _ in range(pairs)]
             shots = len(given[scene]["shots"])
             yield {
                 "scene": scene,

@@ -4,16 +4,11 @@ Two processes, one a commit, do the same work in turn; each ratio is the median 
 a loaded machine slows both.
 """
 
-import json
-import os
 import statistics
-import subprocess
-import sys
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
+from benchmarks.checkouts import Child, checkout
 from benchmarks.command import main
 from benchmarks.recording import ROOT, Row, Tables
 
@@ -33,63 +28,31 @@ UNITS = {
 
 def measure(full: bool) -> Tables:
     """A row for each work."""
-    with tempfile.TemporaryDirectory() as name:
-        base = Path(name) / "base"
-        subprocess.run(["git", "worktree", "add", "--detach", base, BASE], cwd=ROOT, check=True)
-        try:
-            return {"beside": list(rows(base, tuple(UNITS), 15 if full else 3))}
-        finally:
-            subprocess.run(["git", "worktree", "remove", "--force", base], cwd=ROOT, check=True)
+    with checkout(BASE) as base:
+        return {"beside": list(rows(base, tuple(UNITS), 15 if full else 3))}
 
 
 def rows(base: Path, works: tuple[str, ...], pairs: int) -> Iterator[Row]:
     """Each work done in turn."""
-    before, now = Side(base, works), Side(ROOT, works)
+    before, now = (Child(tree, (str(CHILD), *works)) for tree in (base, ROOT))
     for work in works:
         before_units, now_units = UNITS[work]
-        rates = [(before.rate(work, before_units), now.rate(work, now_units)) for _ in range(pairs)]
+        rates = [(rate(before, work, before_units), rate(now, work, now_units)) for _ in range(pairs)]
         yield {
             "work": work,
             "pairs": pairs,
-            "before_per_s": round(statistics.median(rate for rate, _ in rates), 2),
-            "now_per_s": round(statistics.median(rate for _, rate in rates), 2),
+            "before_per_s": round(statistics.median(first for first, _ in rates), 2),
+            "now_per_s": round(statistics.median(after for _, after in rates), 2),
             "ratio": round(statistics.median(after / first for first, after in rates), 2),
         }
     before.end()
     now.end()
 
 
-class Side:
-    """A process that does the works in one checkout."""
-
-    def __init__(self, tree: Path, works: tuple[str, ...]) -> None:
-        command = [sys.executable, "-P", str(CHILD), *works]
-        places, pipe = os.environ | {"PYTHONPATH": str(tree)}, subprocess.PIPE
-        self._process = subprocess.Popen(command, env=places, cwd=tree, stdin=pipe, stdout=pipe, text=True)
-        file = Path(self._read()["file"])
-        if file.parents[1] != tree.resolve():
-            raise RuntimeError(f"physics of {tree} was asked for, {file} was loaded")
-
-    def rate(self, work: str, units: int) -> float:
-        """Units of a work a second of CPU time."""
-        assert self._process.stdin is not None
-        self._process.stdin.write(f"{work}\t{units}\n")
-        self._process.stdin.flush()
-        seconds, done = self._read()
-        return float(done / seconds)
-
-    def _read(self) -> Any:
-        assert self._process.stdout is not None
-        line = self._process.stdout.readline()
-        if not line:
-            raise RuntimeError(f"{self._process.args}: ended with {self._process.wait()}")
-        return json.loads(line)
-
-    def end(self) -> None:
-        """Let the process end."""
-        assert self._process.stdin is not None
-        self._process.stdin.close()
-        self._process.wait()
+def rate(side: Child, work: str, units: int) -> float:
+    """Units of a work that a side does in a second of CPU time."""
+    seconds, done = side.ask(f"{work}\t{units}")
+    return float(done / seconds)
 
 
 if __name__ == "__main__":

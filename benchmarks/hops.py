@@ -3,7 +3,6 @@
 The truth is the arbitrary-precision engine of the tests at 30 digits, as in ``real_tables``.
 """
 
-import time
 from collections.abc import Iterator
 
 import numpy as np
@@ -13,7 +12,7 @@ from benchmarks import timing
 from benchmarks.command import main
 from benchmarks.flight_costs import FLYING
 from benchmarks.opponents import air_stepping
-from benchmarks.real_tables import HORIZON, errors, played, truth
+from benchmarks.real_tables import HORIZON, cue_ball_of, errors, played, stepped, truth
 from benchmarks.recording import Row, Tables
 from benchmarks.scenes import Floats
 
@@ -44,19 +43,12 @@ def error_vs_time(n: int, steps: list[float]) -> Iterator[Row]:
     seconds = timing.cpu_seconds(lambda: physics.simulate_batch(*work))
     ends = [result.at(min(HORIZON, result.duration)).positions[0] for result in results]
     yield errors("this engine", None, seconds / many / n, ends, truths)
-    for back_up in (False, True):
-        for step in steps:
-            ends, seconds = [], 0.0
-            for result in results:
-                cue = result.events[0].states[0]
-                ball = np.array([*cue.position, *cue.velocity, *cue.spin, cue.height, cue.velocity_z])
-                air_stepping.simulate(FLYING, ball.copy(), step, step, back_up)  # compiled before
-                started = time.thread_time()
-                air_stepping.simulate(FLYING, ball, HORIZON, step, back_up)
-                seconds += time.thread_time() - started
-                ends.append(ball[:2])
-            name = "time stepping, backing up" if back_up else "time stepping"
-            yield errors(name, step, seconds / n, ends, truths)
+
+    def carry(ball: Floats, horizon: float, step: float, back_up: bool) -> Floats:
+        air_stepping.simulate(FLYING, ball, horizon, step, back_up)
+        return ball[:2]
+
+    yield from stepped([cue_ball_of(result) for result in results], truths, steps, carry)
 
 
 if __name__ == "__main__":

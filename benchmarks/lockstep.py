@@ -15,7 +15,8 @@ import numpy as np
 
 import client
 import physics
-from benchmarks.yardstick import Yardstick, checkout
+from benchmarks.checkouts import checkout
+from benchmarks.yardstick import Yardstick
 from client.agent import Agent, AgentFactory
 from client.agents.search import SearchAgent
 from client.agents.search.evaluate import Question, Responder, Thinking

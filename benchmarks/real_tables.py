@@ -9,7 +9,7 @@ import statistics
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,8 @@ SAME_LAWS = NINE.replace(
 
 BALLS = (2, 4, 8, 16)
 
+Carry = Callable[[scenes.Floats, float, float, bool], scenes.Floats]
+"""Carries a ball by time steps, overwriting it."""
 Workload = tuple[physics.Table, scenes.Floats, scenes.Floats]
 
 
@@ -177,18 +179,33 @@ def error_vs_time(n: int, steps: list[float]) -> Iterator[Row]:
     results = [played(table, state, shot) for state, shot in rattles]
     ends = [result.at(min(HORIZON, result.duration)).positions[0] for result in results]
     yield errors("this engine", None, seconds / many / n, ends, truths)
+
+    def carry(ball: scenes.Floats, horizon: float, step: float, back_up: bool) -> scenes.Floats:
+        pocketed = jaw_stepping.simulate(table, shape, ball, horizon, step, back_up) == jaw_stepping.POCKETED
+        return np.full(2, np.nan) if pocketed else ball[:2]
+
+    starts = [cue_ball_of(result)[:7] for result in results]
+    yield from stepped(starts, truths, steps, carry)
+
+
+def cue_ball_of(result: physics.Result) -> scenes.Floats:
+    """(9,) the cue ball after the strike: x y vx vy wx wy wz, then its height and how fast it rises."""
+    cue = result.events[0].states[0]
+    return np.array([*cue.position, *cue.velocity, *cue.spin, cue.height, cue.velocity_z])
+
+
+def stepped(starts: list[scenes.Floats], truths: list[Any], steps: list[float], carry: Carry) -> Iterator[Row]:
+    """Errors and run times of time stepping from each start; ``carry(ball, horizon, step, back_up)``: where it ends."""
     for back_up in (False, True):
         for step in steps:
             ends, seconds = [], 0.0
-            for result in results:
-                cue = result.events[0].states[0]
-                ball = np.array([*cue.position, *cue.velocity, *cue.spin])
-                jaw_stepping.simulate(table, shape, ball.copy(), step, step, back_up)  # compiled before
-                started = time.thread_time()
-                motion = jaw_stepping.simulate(table, shape, ball, HORIZON, step, back_up)
-                seconds += time.thread_time() - started
-                ends.append(np.full(2, np.nan) if motion == jaw_stepping.POCKETED else ball[:2])
-            yield errors("time stepping, backing up" if back_up else "time stepping", step, seconds / n, ends, truths)
+            for start in starts:
+                carry(start.copy(), step, step, back_up)  # compiled before
+                ball, began = start.copy(), time.thread_time()
+                ends.append(carry(ball, HORIZON, step, back_up))
+                seconds += time.thread_time() - began
+            name = "time stepping, backing up" if back_up else "time stepping"
+            yield errors(name, step, seconds / len(starts), ends, truths)
 
 
 def played(table: physics.Table, state: Any, shot: Any) -> physics.Result:

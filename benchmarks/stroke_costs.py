@@ -11,7 +11,6 @@ import contextlib
 import json
 import math
 import statistics
-import subprocess
 import tempfile
 import time
 from collections import defaultdict
@@ -22,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.checkouts import checkout
 from benchmarks.command import main
 from benchmarks.growth import serving_process
 from benchmarks.load import ORGANISER, current_view, ready, serving
@@ -41,7 +41,7 @@ MINIMAL = b"Host: load\r\nPrefer: return=minimal\r\n"
 
 def measure(full: bool) -> Tables:
     """A row for each server, way and number of games."""
-    with tempfile.TemporaryDirectory() as name, _earlier(Path(name) / "tree") as tree:
+    with tempfile.TemporaryDirectory() as name, checkout(BASE) as tree:
         rows = []
         for games in GAMES:
             folder = Path(name) / f"{games}"
@@ -49,16 +49,6 @@ def measure(full: bool) -> Tables:
             with _sides(folder, tree) as sides:
                 rows += asyncio.run(_compare(sides, games, 5 if full else 3, 8.0 if full else 3.0))
     return {"strokes": rows}
-
-
-@contextlib.contextmanager
-def _earlier(tree: Path) -> Iterator[Path]:
-    """The checkout of `BASE`."""
-    subprocess.run(["git", "worktree", "add", "--detach", tree, BASE], cwd=ROOT, check=True)
-    try:
-        yield tree
-    finally:
-        subprocess.run(["git", "worktree", "remove", "--force", tree], cwd=ROOT, check=True)
 
 
 @dataclass
