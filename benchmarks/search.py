@@ -194,10 +194,23 @@ def part_row(match: Row) -> Row:
     return row | {name: match[name] for name in kept}
 
 
+def score_row(cells: Counter[int]) -> Row:
+    """The score of pairs with its interval and in Elo; ``cells``: pairs by twice their points, 0 to 4."""
+    score = score_of_cells([cells[cell] for cell in range(5)])
+    return {
+        "pairs": cells.total(),
+        "score": round(score.score, 4),
+        "low_95": round(score.low, 4),
+        "high_95": round(score.high, 4),
+        "elo": round(score.elo, 1),
+        "elo_low_95": round(score.elo_low, 1),
+        "elo_high_95": round(score.elo_high, 1),
+    }
+
+
 def match_row(player: str, opponent: str, noise: float, table: str, pairs: list[Row]) -> Row:
     """One match-up: the score with its interval from pairs, and what both did."""
     halves = Counter(round(2.0 * row["of_player"]["points"]) for row in pairs)
-    score = score_of_cells([halves[cell] for cell in range(5)])
     mine, theirs = (summed([row[side] for row in pairs]) for side in ("of_player", "of_opponent"))
     fouls: Counter[str] = Counter()
     for row in pairs:
@@ -208,13 +221,7 @@ def match_row(player: str, opponent: str, noise: float, table: str, pairs: list[
         "noise": noise,
         "table": table,
         "agents": " ".join(sorted({row["agent"] for row in pairs})),
-        "pairs": len(pairs),
-        "score": round(score.score, 4),
-        "low_95": round(score.low, 4),
-        "high_95": round(score.high, 4),
-        "elo": round(score.elo, 1),
-        "elo_low_95": round(score.elo_low, 1),
-        "elo_high_95": round(score.elo_high, 1),
+        **score_row(halves),
         "break_and_run": round(mine["runs"] / max(1, mine["breaks"]), 4),
         "opponent_break_and_run": round(theirs["runs"] / max(1, theirs["breaks"]), 4),
         "called": mine["called"],

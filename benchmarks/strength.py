@@ -16,11 +16,11 @@ from scipy.stats import binomtest
 from benchmarks import recording
 from benchmarks.lockstep import MatchUp, Played, Turn, play
 from benchmarks.recording import Row, Tables
+from benchmarks.search import score_row
 from client.agents.search.shots import CHANCE
 from client.agents.search.sight import Sight
 from physics import Table
 from physics.table import NAMED
-from tournament.statistics import score_of_cells
 
 SHORT = (
     MatchUp(("search:shots=400", "greedy"), noise=1.0, pairs=2),
@@ -63,17 +63,10 @@ def match_row(match: MatchUp, games: Sequence[Played]) -> Row:
     for game in games:
         points[game.pair] += 1 if game.winner is None else 2 * (game.winner == 0)
     cells = Counter(points.values())
-    score = score_of_cells([cells[cell] for cell in range(5)])
     return {
         **named(match),
         "seed": match.seed,
-        "pairs": len(points),
-        "score": round(score.score, 4),
-        "low_95": round(score.low, 4),
-        "high_95": round(score.high, 4),
-        "elo": round(score.elo, 1),
-        "elo_low_95": round(score.elo_low, 1),
-        "elo_high_95": round(score.elo_high, 1),
+        **score_row(cells),
         **{f"cells_{cell}": cells[cell] for cell in range(5)},
         **side(games, 0, ""),
         **side(games, 1, "opponent_"),

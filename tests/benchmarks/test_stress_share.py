@@ -40,7 +40,7 @@ AT_ROUNDING = {
 }
 
 
-def test_what_filter_and_broad_phase_leave_out_is_nothing():
+def test_filter_and_broad_phase_leave_out_nothing_at_these_grazes():
     """Seen, in 769 of 259,600 shots: contacts without an impulse that only kernels without a filter took note of."""
     scenes = [(NINE.replace(flight=False), balls, shot) for balls, shot in AT_ROUNDING.values()]
     task = "benchmarks.unfiltered:look_at_everything", "benchmarks.unfiltered:left_by", scenes
