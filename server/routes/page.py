@@ -28,7 +28,7 @@ MAIN: Final = "main"
 JOINED: Final = "page.js"
 HEAD_END: Final = b"\n  </head>"
 RULES_FILE: Final = "rules.json"
-TABLES_FILE: Final = "tables.json"
+TABLES_SCRIPT: Final = "named_tables.js"
 RACKS_FILE: Final = "racks.json"
 VALUE_FILE: Final = "value.json"
 RACKS: Final = 10
@@ -77,7 +77,7 @@ def page_files() -> dict[str, File]:
     contents = {one.name: one.read_bytes() for one in found}
     contents[RULES_FILE] = json.dumps(dict(RULES)).encode()
     described = {name: TableDescription.of(Table.named(name)).model_dump(mode="json") for name in NAMED}
-    contents[TABLES_FILE] = json.dumps(described).encode()
+    contents[TABLES_SCRIPT] = f"export const NAMED = {json.dumps(described)};\n".encode()
     racked = {name: [rack(Table.named(name), seed=seed).to_dict() for seed in range(RACKS)] for name in NAMED}
     contents[VALUE_FILE] = json.dumps({"source": VALUE.source, "weights": dict(VALUE.weights)}).encode()
     contents[RACKS_FILE] = json.dumps(racked).encode()

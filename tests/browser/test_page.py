@@ -128,7 +128,7 @@ def test_headers_let_nothing_else_in(server):
         "/web/style.css",
         "/web/icon.svg",
         "/web/rules.json",
-        "/web/tables.json",
+        "/web/named_tables.js",
     ):
         answer = server.http.get(path)
         assert answer.status_code == 200, path

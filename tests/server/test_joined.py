@@ -3,6 +3,7 @@
 import pytest
 
 from server.joined import joined
+from server.routes.page import page_files
 
 SCRIPTS = {
     "main": 'import { two, add as plus } from "./sums.js";\nimport { ONE } from "./numbers.js";\n\nplus(ONE, two());\n',
@@ -45,3 +46,9 @@ def test_modules_that_import_each_other_are_refused():
 def test_other_forms_are_refused(line):
     with pytest.raises(ValueError, match=r"main\.js: .*: must be a named import or export"):
         joined({"main": line, "side": ""}, "main")
+
+
+def test_the_page_has_every_script_that_it_loads():
+    scripts = {name.removesuffix(".js") for name in page_files() if name.endswith(".js")} - {"page"}
+    text = page_files()["page.js"].content.decode()
+    assert {name for name in scripts if f"const of_{name} = " in text} == scripts
