@@ -123,9 +123,9 @@ export class Stage {
     this.scrubber.min = String(this.playback.start);
     this.scrubber.max = String(this.playback.duration);
     this.scrubber.disabled = !this.trace;
+    if (play && this.trace && !atEnd && !reducedMotion()) this.playback.play();
     if (atEnd || !this.trace) this.playback.seek(this.playback.duration);
-    else if (play && !reducedMotion()) this.playback.play();
-    this.redraw();
+    else this.redraw();
     this.showPlaying();
     this.changed();
   }
