@@ -4,12 +4,14 @@ Sets of synthetic shots on tables with hidden parameters; each set is fitted fro
 of one thread if the numerical libraries are told to use one (OPENBLAS_NUM_THREADS=1).
 
     python -m benchmarks.recovery              # a few sets, a minute or two
-    python -m benchmarks.recovery --sets 200   # that many on the Olympiad's table, a quarter of it on nine_foot
+    python -m benchmarks.recovery --sets 200   # that many on the Olympiad's table, a quarter as many on nine_foot
     python -m benchmarks.recovery --full       # 400 and 100
+    python -m benchmarks.recovery --full --minutes 30   # as many of these as half an hour allows
 """
 
 import argparse
 import dataclasses
+import math
 import time
 from collections.abc import Sequence
 
@@ -24,6 +26,8 @@ from physics import Table
 
 SEED = 5000
 FULL, SHORT = 400, 4
+NINE_FOOT_EVERY = 4
+"""So many sets of the Olympiad's table to one of a nine-foot table, whose fits take longer."""
 SIZES = {
     True: ((5, 1e-3, 20.0), (20, 1e-3, 20.0), (30, 1e-3, 20.0), (10, 5e-4, 20.0), (10, 1e-3, 60.0)),
     False: ((30, 1e-3, 20.0),),
@@ -71,18 +75,23 @@ def measure(full: bool) -> Tables:
     return measured(FULL if full else SHORT)
 
 
-def measured(sets: int) -> Tables:
-    """Coverage over sets of ten shots; one set of other sizes, noise and rates; wrong laws."""
-    coverage_rows, fits_rows = [], []
-    for hidden, count in ((OLYMPIAD, sets), (NINE_FOOT, max(2, sets // 4))):
-        found = [one_set(hidden, 10, Camera(), hidden.seed + number) for number in range(count)]
-        coverage_rows += coverage(hidden, found)
-        fits_rows.append(fits(hidden, found))
+def measured(sets: int, minutes: float = math.inf) -> Tables:
+    """One set of other sizes, noise and rates; wrong laws; coverage over sets of ten shots, as many as the time allows."""
+    end = time.monotonic() + 60.0 * minutes
+    sizes = [size(*terms) for terms in SIZES[sets > SHORT]]
+    wrongs = [wrong("e_ball", 1.0), wrong_law()]
+    found: dict[str, list[tuple[Calibration, float]]] = {OLYMPIAD.before.name: [], NINE_FOOT.before.name: []}
+    for number in range(sets):
+        for hidden in (OLYMPIAD, NINE_FOOT) if number % NINE_FOOT_EVERY == 0 else (OLYMPIAD,):
+            found[hidden.before.name].append(one_set(hidden, 10, Camera(), hidden.seed + number))
+        if time.monotonic() > end:
+            break
+    tables = [(hidden, found[hidden.before.name]) for hidden in (OLYMPIAD, NINE_FOOT)]
     return {
-        "coverage": coverage_rows,
-        "fits": fits_rows,
-        "sizes": [size(*terms) for terms in SIZES[sets > SHORT]],
-        "wrong": [wrong("e_ball", 1.0), wrong_law()],
+        "coverage": [row for hidden, fitted in tables for row in coverage(hidden, fitted)],
+        "fits": [fits(hidden, fitted) for hidden, fitted in tables],
+        "sizes": sizes,
+        "wrong": wrongs,
     }
 
 
@@ -193,10 +202,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sets", type=int, default=SHORT, help=f"on the Olympiad's table; a full run has {FULL}")
     parser.add_argument("--full", dest="sets", action="store_const", const=FULL)
-    sets = parser.parse_args().sets
-    if sets < 1:
-        parser.error(f"--sets = {sets}: must be 1 or more")
-    recording.run("recovery", lambda _: measured(sets), sets >= FULL)
+    parser.add_argument("--minutes", type=float, default=math.inf, help="no longer than this, and the last set")
+    told = parser.parse_args()
+    if told.sets < 1:
+        parser.error(f"--sets = {told.sets}: must be 1 or more")
+    recording.run(
+        "recovery", lambda _: measured(told.sets, told.minutes), told.sets >= FULL and math.isinf(told.minutes)
+    )
 
 
 if __name__ == "__main__":
