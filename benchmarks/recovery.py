@@ -76,7 +76,7 @@ def measure(full: bool) -> Tables:
 
 
 def measured(sets: int, minutes: float = math.inf) -> Tables:
-    """One set of other sizes, noise and rates; wrong laws; coverage over sets of ten shots, as many as the time allows."""
+    """Sets of other sizes, noise and rates; wrong laws; coverage over sets of ten shots, as many as time allows."""
     end = time.monotonic() + 60.0 * minutes
     sizes = [size(*terms) for terms in SIZES[sets > SHORT]]
     wrongs = [wrong("e_ball", 1.0), wrong_law()]
