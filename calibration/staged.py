@@ -34,8 +34,9 @@ PATIENCE = 2
 """Rounds without progress before a shot is given up."""
 SPREADS = (2.0, 6.0)
 """How far starts are drawn, in standard deviations of the nuisances; every second time the second."""
-WALKED, WALK_SPREADS = 1.5, (1.0, 2.0)
-"""Root mean square above which starts are drawn for a shot that is begun anew at parameters near the right ones."""
+WALKED, WALK_SPREADS, MOST_WALKED = 1.5, (1.0, 2.0), 40
+"""Root mean square above which starts are drawn for a shot that is begun anew at parameters near the right ones, how
+far, and over how many meetings: a ball that rattles in a jaw has many more."""
 CAUGHT = 0.5
 """Fall of the cost, in standard deviations squared, that slopes may promise at a smooth minimum."""
 BADLY = 2.5
@@ -173,7 +174,7 @@ class StagedShot:
         whole = self.weights(np.inf)
         best = self._best(table, before, whole, rng)
         if not self.follows(best, whole) or self.excess_of(best, whole) > BADLY:
-            walked = self._walked(table, whole, rng)
+            walked = self._walked(table, rng)
             if walked is not None and walked.cost < best.cost:
                 best = walked
         if self.follows(best, whole):
@@ -188,14 +189,16 @@ class StagedShot:
         worst = ShotFit(before.nuisances, residuals, before.slopes)
         return min((fit for fit in found if fit is not None), key=lambda fit: fit.cost, default=worst)
 
-    def _walked(self, table: Table, whole: Floats, rng: np.random.Generator) -> ShotFit | None:
-        """Begun anew at these parameters, and matched meeting by meeting; None where no start follows one.
+    def _walked(self, table: Table, rng: np.random.Generator) -> ShotFit | None:
+        """Begun anew at these parameters, and matched meeting by meeting to its end; None where no start follows one.
 
         Starts are drawn from what the samples before a meeting say, which is wide enough for every order after it.
         """
         horizon = self._first_horizon(table)
         fit = fit_shot(self.model, table, self.model.means, self.weights(horizon))
-        while fit is not None:
+        for _ in range(MOST_WALKED):
+            if fit is None:
+                break
             horizon = self._meeting_after(table, fit.nuisances, horizon)
             weights = self.weights(horizon)
             found = [fit_shot(self.model, table, fit.nuisances, weights)]
@@ -203,7 +206,7 @@ class StagedShot:
                 found += [search_shot(self.model, table, fit, weights, spread, rng) for spread in WALK_SPREADS]
             fit = min((one for one in found if one is not None), key=lambda one: one.cost, default=None)
             if fit is None or not self.follows(fit, weights):
-                return None
+                break
             if np.isinf(horizon):
                 return fit
         return None
@@ -222,6 +225,12 @@ class StagedShot:
         """The same of another fit."""
         counted = int(np.count_nonzero(weights[: self.model.n_samples]))
         return (self.root_mean_square(fit, weights) ** 2 - 1.0) * float(np.sqrt(counted / 2.0))
+
+    def badness(self, promised: float) -> float:
+        """Above 1 for a shot whose order of events is to be looked for; ``promised``: the fall that its slopes say."""
+        if self.is_searched:
+            return 0.0
+        return max(self.excess / BADLY, promised / CAUGHT) if self.is_whole else np.inf
 
     def judge_samples(self, table: Table) -> bool:
         """Leave out single samples far off a path that is otherwise followed, and take back those that lie on it.
@@ -244,6 +253,7 @@ class StagedShot:
             strays[:] = False
         changed = (self.outliers & (worst < NO_STRAY)) | (strays & ~self.outliers)
         self.outliers ^= changed
+        self.is_searched &= not changed.any()
         self._base[: self.model.n_samples] = ~self.outliers[self.model.sample_of_row]
         return bool(changed.any())
 
@@ -295,7 +305,7 @@ def _all_together(joint: JointFit, staged: list[StagedShot], rng: np.random.Gene
 
 
 def _search_orders(joint: JointFit, staged: list[StagedShot], rng: np.random.Generator, observer: Observer) -> None:
-    """Try other orders of events for the shots that fit worst, as long as that lowers the cost."""
+    """Try other orders of events for the shots that fit worst."""
     for number in range(MOST_RELEASES):
         joint.take(joint.values)
         caught = _caught(joint, staged)
@@ -307,14 +317,7 @@ def _search_orders(joint: JointFit, staged: list[StagedShot], rng: np.random.Gen
 
 def _caught(joint: JointFit, staged: list[StagedShot]) -> list[StagedShot]:
     """The worst of the shots that stop short, fit badly, or lie at an edge of two orders: a third of all at most."""
-    badness = [
-        0.0
-        if shot.is_searched
-        else np.inf
-        if not shot.is_whole
-        else max(shot.excess / BADLY, joint.promised(number) / CAUGHT)
-        for number, shot in enumerate(staged)
-    ]
+    badness = [shot.badness(joint.promised(number)) for number, shot in enumerate(staged)]
     worst = np.argsort(badness)[::-1][: max(1, len(staged) // 3)]
     return [staged[number] for number in worst.tolist() if badness[number] > 1.0]
 
