@@ -95,9 +95,11 @@ async def shoot(game_id: str, request: Request) -> Response:
     whatever it prefers then.
     """
     context = context_of(request)
+    move, batches = move_of(request), request.app.state.stroke_batches
+    together = partial(batches.play, game_id, move) if context.database.shares_commits else None
     with in_hand(game_id, request):
-        play = partial(strokes.shoot, context, game_id, move_of(request))
-        return respond(await context.long_strokes.play(game_id, play))
+        play = partial(strokes.shoot, context, game_id, move)
+        return respond(await context.long_strokes.play(game_id, play, together))
 
 
 async def _shoot(request: Request) -> Response:

@@ -46,9 +46,10 @@ class Stage:
 
     def __init__(self, path: Path, **settings: Any) -> None:
         self.time = StoppedTime()
-        database = Database(f"sqlite:///{path}")
+        made = Settings(**settings)
+        database = Database(f"sqlite:///{path}", group_commit=made.group_commit)
         upgrade(database)
-        self.context = Context(Settings(**settings), database, time=self.time)
+        self.context = Context(made, database, time=self.time)
 
     def close(self) -> None:
         self.context.database.dispose()

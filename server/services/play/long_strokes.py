@@ -11,7 +11,7 @@ then plays another.
 
 import asyncio
 import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
 from typing import Final, TypeVar
 
@@ -43,17 +43,20 @@ class LongStrokes:
         self._one = asyncio.Lock()
         self._waiting: dict[str, asyncio.Event] = {}
 
-    async def play(self, game_id: str, run: Callable[[bool], T]) -> T:
+    async def play(
+        self, game_id: str, run: Callable[[bool], T], ordinary: Callable[[], Awaitable[T]] | None = None
+    ) -> T:
         """What `run` returns, called in a thread.
 
         Args:
             game_id: the game that the stroke belongs to.
             run: plays a stroke; told whether it may be long, else it raises `IsLong` for one that is.
+            ordinary: does what `run` does for strokes that may not be long, in its stead.
         """
         while (before := self._waiting.get(game_id)) is not None:
             await before.wait()
         try:
-            return await run_in_threadpool(run, False)
+            return await (run_in_threadpool(run, False) if ordinary is None else ordinary())
         except IsLong:
             async with self._turn(game_id):
                 return await run_in_threadpool(run, True)

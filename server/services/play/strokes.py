@@ -9,7 +9,7 @@ import logging
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, Final, TypeVar
+from typing import Any, Final
 
 from sqlalchemy import Connection, insert
 
@@ -45,15 +45,13 @@ from server.store.tables import moves
 log = logging.getLogger("pooliad.server.strokes")
 
 
-Stored = TypeVar("Stored")
-
 Move = Callable[[Connection], Command]
 """A move as it came in: a command once its sender has been looked up, which may raise `Unauthorized`."""
 
 
 def shoot(context: Context, game_id: str, move: Move, may_be_long: bool) -> Answer:
     """Play a stroke; raises `IsLong` for one of very many events unless it may have them."""
-    return _act(context, game_id, move, lambda command: _Asked.of(parse(command, ShotRequest)), may_be_long)
+    return _act(context, game_id, move, _shot, may_be_long)
 
 
 def decide(context: Context, game_id: str, move: Move) -> Answer:
@@ -85,51 +83,104 @@ def _act(
     context.pulse.require(context.time.now())
     while True:
         with contextlib.suppress(games.MoveConflict):
-            return _tried(context, game_id, move, read, may_be_long)
+            return Attempt(context, game_id, move, read, may_be_long).carried_out_alone()
 
 
-def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked], may_be_long: bool) -> Answer:
-    with context.database.reading() as connection:
-        command = move(connection)
-        live = _found(context, connection, game_id, command.caller)
-        seat = live.seat_of(command.caller)
+class Attempt:
+    """A move from the complete request to the stored answer: in one go, or step by step among others' steps.
+
+    Args:
+        context: the server's parts.
+        game_id: the game that it is for.
+        move: as it came in.
+        read: what it asks for.
+        may_be_long: whether a stroke may have very many events.
+    """
+
+    def __init__(
+        self, context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked], may_be_long: bool = False
+    ) -> None:
+        self._context: Final = context
+        self._game_id: Final = game_id
+        self._move: Final = move
+        self._read: Final = read
+        self._may_be_long: Final = may_be_long
+
+    def carried_out_alone(self) -> Answer:
+        """The answer; raises `MoveConflict` when somebody else changes the game meanwhile."""
+        with self._context.database.reading() as connection:
+            if (answer := self.looked(connection)) is not None:
+                return answer
+        self.play()
+        return self.stored_alone()
+
+    def stored_alone(self) -> Answer:
+        """The answer, once the move is stored. The end of a game is also counted, logged and gone on from: its
+        transaction is its own.
+        """
+        if not self.ends_game:
+            return self.finished(self._context.carry_out(self.store))
+        with self._context.writing() as writing:
+            stored = self.store(writing)
+        return self.finished(stored)
+
+    def looked(self, connection: Connection) -> Answer | None:
+        """The answer, if the move was made before; else it is found to be its sender's turn."""
+        self._command = command = self._move(connection)
+        self._live = live = _found(self._context, connection, self._game_id, command.caller)
+        self._seat = live.seat_of(command.caller)
         if stored := recall(connection, command):
             return stored
-        _require_turn(connection, live, seat, command)
-    context.failpoint("shot-admitted")
-    with _told_why():
-        asked = read(command)
-        _require_range(live, asked.action)
-        budget.require_left(live, seat, asked.simulated)  # before any noise is drawn
-        stroke = _played(live, asked.action, may_be_long)
-    end = games.TurnEnd(live.clock.charge_of_action(command.arrived), games.next_move(live))
-    told = _Told.of(live, stroke, end, whole=not command.minimal)
-    context.failpoint("shot-simulated")
+        _require_turn(connection, live, self._seat, command)
+        return None
 
-    def store(writing: Writing) -> tuple[LiveGame, Answer]:
-        hold_match_of(writing.connection, game_id)
-        then = budget.declare(writing.connection, live, seat, asked.simulated)
-        after, view = _stored(writing, then, stroke, end, told)
-        answer = _minimal(after, view) if command.minimal else _answer(after, told, view)
-        keep(writing.connection, command, answer)
-        context.failpoint("shot-kept")
+    def play(self) -> None:
+        """Read the request, play the stroke and put it in words; raises `IsLong` for one of very many events."""
+        self._context.failpoint("shot-admitted")
+        live = self._live
+        with _told_why():
+            asked = self._read(self._command)
+            _require_range(live, asked.action)
+            budget.require_left(live, self._seat, asked.simulated)  # before any noise is drawn
+            self._stroke = _played(live, asked.action, self._may_be_long)
+        self._simulated = asked.simulated
+        self._end = games.TurnEnd(live.clock.charge_of_action(self._command.arrived), games.next_move(live))
+        self._told = _Told.of(live, self._stroke, self._end, whole=not self._command.minimal)
+        self._context.failpoint("shot-simulated")
+
+    @property
+    def ends_game(self) -> bool:
+        """Whether it does, once it is played."""
+        return self._stroke.game.is_over
+
+    def store(self, writing: Writing) -> tuple[LiveGame, Answer]:
+        """All of it, with the answer; raises `MoveConflict` when the game is not any more as it was looked at."""
+        hold_match_of(writing.connection, self._game_id)
+        then = budget.declare(writing.connection, self._live, self._seat, self._simulated)
+        after, view = _stored(writing, then, self._stroke, self._end, self._told)
+        answer = _minimal(after, view) if self._command.minimal else _answer(after, self._told, view)
+        keep(writing.connection, self._command, answer)
+        self._context.failpoint("shot-kept")
         return after, answer
 
-    after, answer = _carried_out(context, stroke, store)
-    context.failpoint("shot-committed")
-    context.seen.keep(after)
-    _account(context, live, command, end, stroke)
-    context.wakeups.notify(live.agents)
-    context.failpoint("shot-woken")
-    return answer
+    def finished(self, stored: tuple[LiveGame, Answer]) -> Answer:
+        """The answer of a move that is committed, told to those who wait for it."""
+        after, answer = stored
+        self._context.failpoint("shot-committed")
+        self._context.seen.keep(after)
+        _account(self._context, self._live, self._command, self._end, self._stroke)
+        self._context.wakeups.notify(self._live.agents)
+        self._context.failpoint("shot-woken")
+        return answer
 
 
-def _carried_out(context: Context, stroke: Stroke, store: Callable[[Writing], Stored]) -> Stored:
-    """What was stored. The end of a game, which is counted, logged and gone on from, has a transaction of its own."""
-    if not stroke.game.is_over:
-        return context.carry_out(store)
-    with context.writing() as writing:
-        return store(writing)
+def attempt_of(context: Context, game_id: str, move: Move) -> Attempt:
+    """A stroke to be carried out step by step, with others'."""
+    return Attempt(context, game_id, move, _shot)
+
+
+def _shot(command: Command) -> _Asked:
+    return _Asked.of(parse(command, ShotRequest))
 
 
 def _played(live: LiveGame, action: Action, may_be_long: bool) -> Stroke:
