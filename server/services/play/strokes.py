@@ -38,6 +38,7 @@ from server.services.play import budget, games, stored_strokes
 from server.services.play.live_game import LiveGame
 from server.services.play.long_strokes import MOST_EVENTS, IsLong
 from server.services.runtime.context import Context, Writing
+from server.services.runtime.steps import Done, Steps
 from server.store.locks import hold_match_of
 from server.store.prepared import Prepared
 from server.store.tables import moves
@@ -49,9 +50,9 @@ Move = Callable[[Connection], Command]
 """A move as it came in: a command once its sender has been looked up, which may raise `Unauthorized`."""
 
 
-def shoot(context: Context, game_id: str, move: Move, may_be_long: bool) -> Answer:
-    """Play a stroke; raises `IsLong` for one of very many events unless it may have them."""
-    return _act(context, game_id, move, _shot, may_be_long)
+def shoot(context: Context, game_id: str, move: Move) -> Answer:
+    """Play a stroke, of however many events."""
+    return _act(context, game_id, move, _shot, may_be_long=True)
 
 
 def decide(context: Context, game_id: str, move: Move) -> Answer:
@@ -83,11 +84,11 @@ def _act(
     context.pulse.require(context.time.now())
     while True:
         with contextlib.suppress(games.MoveConflict):
-            return Attempt(context, game_id, move, read, may_be_long).carried_out_alone()
+            return Attempt(context, game_id, move, read, may_be_long).carried_out()
 
 
-class Attempt:
-    """A move from the complete request to the stored answer: in one go, or step by step among others' steps.
+class Attempt(Steps[Answer, tuple[LiveGame, Answer]]):
+    """A move from the complete request to the stored answer.
 
     Args:
         context: the server's parts.
@@ -100,43 +101,25 @@ class Attempt:
     def __init__(
         self, context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked], may_be_long: bool = False
     ) -> None:
-        self._context: Final = context
+        super().__init__(context)
         self._game_id: Final = game_id
         self._move: Final = move
         self._read: Final = read
         self._may_be_long: Final = may_be_long
 
-    def carried_out_alone(self) -> Answer:
-        """The answer; raises `MoveConflict` when somebody else changes the game meanwhile."""
-        with self._context.database.reading() as connection:
-            if (answer := self.looked(connection)) is not None:
-                return answer
-        self.play()
-        return self.stored_alone()
-
-    def stored_alone(self) -> Answer:
-        """The answer, once the move is stored. The end of a game is also counted, logged and gone on from: its
-        transaction is its own.
-        """
-        if not self.ends_game:
-            return self.finished(self._context.carry_out(self.store))
-        with self._context.writing() as writing:
-            stored = self.store(writing)
-        return self.finished(stored)
-
-    def looked(self, connection: Connection) -> Answer | None:
+    def looked(self, connection: Connection) -> Done[Answer] | None:
         """The answer, if the move was made before; else it is found to be its sender's turn."""
         self._command = command = self._move(connection)
-        self._live = live = _found(self._context, connection, self._game_id, command.caller)
+        self._live = live = _found(self.context, connection, self._game_id, command.caller)
         self._seat = live.seat_of(command.caller)
         if stored := recall(connection, command):
-            return stored
+            return Done(stored)
         _require_turn(connection, live, self._seat, command)
         return None
 
-    def play(self) -> None:
+    def prepare(self) -> None:
         """Read the request, play the stroke and put it in words; raises `IsLong` for one of very many events."""
-        self._context.failpoint("shot-admitted")
+        self.context.failpoint("shot-admitted")
         live = self._live
         with _told_why():
             asked = self._read(self._command)
@@ -146,11 +129,11 @@ class Attempt:
         self._simulated = asked.simulated
         self._end = games.TurnEnd(live.clock.charge_of_action(self._command.arrived), games.next_move(live))
         self._told = _Told.of(live, self._stroke, self._end, whole=not self._command.minimal)
-        self._context.failpoint("shot-simulated")
+        self.context.failpoint("shot-simulated")
 
     @property
-    def ends_game(self) -> bool:
-        """Whether it does, once it is played."""
+    def goes_alone(self) -> bool:
+        """The end of a game is also counted, logged and gone on from."""
         return self._stroke.game.is_over
 
     def store(self, writing: Writing) -> tuple[LiveGame, Answer]:
@@ -160,22 +143,23 @@ class Attempt:
         after, view = _stored(writing, then, self._stroke, self._end, self._told)
         answer = _minimal(after, view) if self._command.minimal else _answer(after, self._told, view)
         keep(writing.connection, self._command, answer)
-        self._context.failpoint("shot-kept")
+        self.context.failpoint("shot-kept")
         return after, answer
 
     def finished(self, stored: tuple[LiveGame, Answer]) -> Answer:
         """The answer of a move that is committed, told to those who wait for it."""
         after, answer = stored
-        self._context.failpoint("shot-committed")
-        self._context.seen.keep(after)
-        _account(self._context, self._live, self._command, self._end, self._stroke)
-        self._context.wakeups.notify(self._live.agents)
-        self._context.failpoint("shot-woken")
+        self.context.failpoint("shot-committed")
+        self.context.seen.keep(after)
+        _account(self.context, self._live, self._command, self._end, self._stroke)
+        self.context.wakeups.notify(self._live.agents)
+        self.context.failpoint("shot-woken")
         return answer
 
 
 def attempt_of(context: Context, game_id: str, move: Move) -> Attempt:
-    """A stroke to be carried out step by step, with others'."""
+    """A stroke that may not have very many events: `IsLong` is raised for one that has."""
+    context.pulse.require(context.time.now())
     return Attempt(context, game_id, move, _shot)
 
 

@@ -1,7 +1,8 @@
-"""Strokes in a batch (`group_commit`): each is played, refused or fails as it would alone."""
+"""Strokes and polls in a batch (`group_commit`): each is carried out, refused or fails as it would alone."""
 
 import asyncio
 import json
+from functools import partial
 from typing import Any
 
 import pytest
@@ -9,16 +10,18 @@ from sqlalchemy import event
 from support.server_time import SECOND, Stage
 
 from server.errors import NotFound, OutOfTime, StaleVersion, Unauthorized, Unavailable
-from server.services.play import history, live_game, stroke_batches, strokes
+from server.security.callers import Caller
+from server.services.play import history, live_game, strokes, turns
 from server.services.play.long_strokes import IsLong
-from server.services.play.stroke_batches import StrokeBatches
+from server.services.runtime import batches as batches_module
+from server.services.runtime.batches import Batches
 
 BREAK = {"v": 8.0, "phi": 270.0, "theta": 5.0, "a": 0.0, "b": 0.0}
 
 
 @pytest.fixture
 def stage(tmp_path, monkeypatch):
-    monkeypatch.setattr(stroke_batches, "THREADS", 1)
+    monkeypatch.setattr(batches_module, "THREADS", 1)
     made = Stage(tmp_path / "batches.db", group_commit=True)
     yield made
     made.close()
@@ -38,11 +41,16 @@ def broken_off(stage, seats, key="s", version=1, shot=BREAK, **members):
 
 
 def together(stage, *requests):
-    """What becomes of requests that are all there when the strokes' thread looks: an answer or an exception each."""
+    """What becomes of strokes in a batch."""
+    return carried_out(stage, *(partial(strokes.attempt_of, stage.context, *each) for each in requests))
+
+
+def carried_out(stage, *begun):
+    """What becomes of requests that are all there when the batches' thread looks: a value or an exception each."""
 
     async def all_of_them() -> Any:
-        batches = StrokeBatches(stage.context)
-        waiting = asyncio.gather(*(batches.play(*each) for each in requests), return_exceptions=True)
+        batches = Batches(stage.context)
+        waiting = asyncio.gather(*map(batches.carry_out, begun), return_exceptions=True)
         await asyncio.sleep(0)  # each is put in the queue
         async with batches.running():
             return await waiting
@@ -123,7 +131,7 @@ def test_a_stroke_that_fails_at_any_step_hurts_nobody(stage, monkeypatch, point)
             raise fault
 
     object.__setattr__(stage.context, "failpoint", fails)
-    for step in (strokes.Attempt.play, strokes.Attempt.store):
+    for step in (strokes.Attempt.prepare, strokes.Attempt.store):
 
         def noted(attempt, *values, step=step):
             in_hand.append(attempt._game_id)
@@ -169,9 +177,9 @@ def test_who_hangs_up_has_his_stroke_stored_and_hurts_nobody(stage):
     first, second = games(stage, 2)
 
     async def hung_up() -> Any:
-        batches = StrokeBatches(stage.context)
-        gone = asyncio.create_task(batches.play(*broken_off(stage, first)))
-        stays = asyncio.create_task(batches.play(*broken_off(stage, second)))
+        batches = Batches(stage.context)
+        begun = (partial(strokes.attempt_of, stage.context, *broken_off(stage, seats)) for seats in (first, second))
+        gone, stays = (asyncio.create_task(batches.carry_out(each)) for each in begun)
         await asyncio.sleep(0)
         gone.cancel()
         async with batches.running():
@@ -207,3 +215,29 @@ def test_the_end_of_a_game_among_strokes(stage):
     assert {stage.news(agent)["type"] for agent in ending.ids} == {"game_over"}
     assert stage.waiting(going_on) is not None
     assert together(stage, broken_off(stage, ending, shot=sunk, call={"ball": 8, "pocket": 0}))[0].body == first.body
+
+
+def test_polls_in_a_batch_start_their_clocks_and_tell_news_once(stage):
+    """Beside strokes: each agent is told what it would be told alone; a turn again, and news never again."""
+    seats = [stage.game(f"ann {number}", f"bob {number}") for number in range(3)]
+    over = stage.game("cat", "dan")
+    over.fetch()
+    over.concede()
+
+    def fetch(agent):
+        asker = turns.Asker(Caller(agent, "t"), agent, 0.0)
+        return partial(turns.Fetch, stage.context, lambda connection: asker)
+
+    seen = commits(stage)
+    begun = [fetch(agent) for agent in (*(each.mover for each in seats), *[over.ids[0]] * 3)]
+    *told, first, second, third = (message for _, message in carried_out(stage, *begun))
+    assert len(seen) == 1
+    assert [json.loads(each)["game"] for each in told] == [each.id for each in seats]
+    assert [json.loads(each)["type"] for each in (first, second)] == ["game_over", "match_over"]
+    assert third is None
+    stage.time.pass_(1.0)
+    ((_, redelivered),) = carried_out(stage, fetch(seats[0].mover))
+    clocks = [json.loads(each)["view"]["clocks"] for each in (told[0], redelivered)]
+    assert clocks[0] != clocks[1]
+    assert len(seen) == 1, "nothing is written for a turn that was fetched"
+    assert carried_out(stage, fetch(over.ids[0]))[0][1] is None
