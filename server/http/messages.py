@@ -115,10 +115,10 @@ class OneAtATime(HttpToolsProtocol):
 
     def _cut_chunk(self) -> bytes:
         """A line, or what there is of one: no body in chunks ends but with a line."""
-        piece = self._taken(self._came.find(b"\n") + 1 or len(self._came))
-        self._since_body += len(piece)
         if self._since_body > LONGEST_HEAD:
             raise Unreadable
+        piece = self._taken(self._came.find(b"\n") + 1 or len(self._came))
+        self._since_body += len(piece)  # nothing, once the parser finds a part of the body in it
         return piece
 
     def _taken(self, size: int) -> bytes:

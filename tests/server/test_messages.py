@@ -167,6 +167,13 @@ def test_junk_anywhere_never_makes_a_request_that_another_parser_does_not_see(se
     assert ours == theirs[: len(ours)]
 
 
+def test_a_chunk_larger_than_a_head_is_read():
+    body = b"x" * 100_000
+    sent = b"POST /a HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n186a0\r\n%b\r\n0\r\n\r\n" % body
+    for pieces in ([sent], cut(sent, [30_000, 60_000, 90_000])):
+        assert asyncio.run(taken(pieces)) == read_by_h11(sent)
+
+
 def test_in_pieces_of_a_byte_they_are_the_same():
     sent = b"POST /a HTTP/1.1\r\nHost: x\r\nContent-Length: 4\r\n\r\n\r\n\r\n" * 3
     assert asyncio.run(taken([bytes([byte]) for byte in sent])) == read_by_h11(sent)
