@@ -22,7 +22,7 @@ from referee import Action, Decision, EightBall, Game, Phase, RuleId, Ruling
 from referee.play.noise import OLYMPIAD_SIGMAS
 
 SEED = 20
-LEVELS = (0.0, 1.0, 5.0)
+LEVELS = (0.5, 1.0, 2.0, 5.0)
 ROUNDS = ((1000, 48), (150, 200), (30, 1000), (6, 5000))
 """Breaks kept, and how many racks and draws each is played on; a short run has a tenth of the breaks and leaves
 the last round out."""

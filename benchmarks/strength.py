@@ -88,6 +88,8 @@ def side(games: Sequence[Played], player: int, prefix: str) -> Row:
     called = [turn.made for game in games for turn in game.turns if turn.seat == player and turn.called]
     row = {
         "breaks": len(broke),
+        "breaks_kept": round(sum(game.kept for game in broke) / max(1, len(broke)), 4),
+        "breaks_won": round(sum(game.winner == player for game in broke) / max(1, len(broke)), 4),
         "break_and_run": round(runs / max(1, len(broke)), 4),
         "break_and_run_low_95": round(float(interval.low), 4),
         "break_and_run_high_95": round(float(interval.high), 4),

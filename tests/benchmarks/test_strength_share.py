@@ -77,6 +77,16 @@ def test_the_score_is_of_pairs():
     assert (row["pairs"], row["score"], row["cells_4"], row["cells_1"]) == (2, 0.625, 1, 1)
     assert (row["lost"], row["lost_winnable"]) == (1, 0)  # it never came to the table
     assert (row["break_and_run"], row["opponent_lost"]) == (0.5, 2)
+    assert (row["breaks_kept"], row["breaks_won"], row["opponent_breaks_won"]) == (0.0, 0.5, 0.0)
+
+
+def test_a_break_is_kept_when_its_player_shoots_next():
+    """The first called stroke of a game tells, unless the opponent decided something before it."""
+    games = play(MatchUp(("search:shots=60",) * 2, noise=5.0, pairs=4, seed=4))
+    assert {game.kept for game in games} == {True, False}
+    for game in games:
+        assert game.kept <= (game.turns[0].seat == game.breaker)
+        assert game.run_out <= game.kept
 
 
 def test_ends_of_turns_have_causes():
