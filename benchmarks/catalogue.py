@@ -32,6 +32,7 @@ BENCHMARKS = {
     "costly_strokes": "times of strokes while 16 clients play strokes of 20,000 events, and while none does",
     "page": "the page with 30 live games: the browser's processor time and its longest frame",
     "openings": "what pockets with jaws let in, and how much of it the geometry promises",
+    "search_odds": "what search reckons against what its games show: the constants that bring them together",
     "search_breaks": "the study behind the break of `search`: random breaks, halved again and again",
     "tournaments": "events of in-process agents: games per second, in one process and with one and two workers",
     "load": "shots a second over HTTP with 1, 10, 100 and 500 games at once, next to a bare endpoint",

@@ -11,6 +11,7 @@ from client.agents.search.budget import Budget, Pace
 from client.agents.search.evaluate import Evaluator, Responder, answered
 from client.agents.search.finalists import Finalists
 from client.agents.search.jumps import ELEVATIONS, leaps
+from client.agents.search.odds import odds
 from client.agents.search.refine import falls
 from client.agents.search.shots import Shots, Tables
 from client.agents.search.sight import Sight
@@ -111,3 +112,14 @@ def test_rounds_spend_no_more_than_they_are_given():
         assert all(copies <= polish.MOST_COPIES for _, copies in given)
     assert len(given) == polish.ROUNDS
     assert math.prod(spread for spread, _ in given) < 1e-6
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.5, 1.0, 2.0, 3.7, 5.0])
+@pytest.mark.parametrize("table", [OLYMPIAD, NINE], ids=["olympiad", "nine_foot"])
+def test_what_games_bear_out_keeps_the_order_of_chances(table, noise):
+    """Else a better table could count for less; and certainties stay chances."""
+    race = np.linspace(0.0, 1.0, 101)
+    borne_out = odds(noise, table.has_jaws).of(race)
+    assert (np.diff(borne_out[1:-1]) > 0.0).all()
+    assert (np.diff(borne_out) >= 0.0).all()
+    assert ((borne_out > 0.0) & (borne_out < 1.0)).all()
