@@ -26,6 +26,7 @@ BENCHMARKS = {
     "agents": "the shipped greedy against random: games won, called balls made, seconds a stroke",
     "search": "the shipped search in pairs of games against greedy and against itself without its parts",
     "strength": "lock-step games of search: score, Elo, break-and-run, why turns are lost, reckoned against won",
+    "contest": "which table and noise tell players apart: break-and-run, won breaks, Elo of ten times the thinking",
     "choices": "what a budget buys: the worth of what search chooses, judged by copies without a part in it",
     "search_habits": "what typically happens in games of search: the constants behind its values",
     "saturation": "times of strokes while one client keeps the batch endpoint busy, and while none does",
