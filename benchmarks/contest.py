@@ -16,8 +16,8 @@ from benchmarks.recording import Row, Tables
 from benchmarks.search import score_row
 
 TABLES, LEVELS = ("olympiad", "nine_foot"), (0.5, 1.0, 2.0, 5.0)
-STRONG, WEAK, GREEDY = "search:shots=5000", "search:shots=500", "greedy"
-PAIRS, GREEDY_PAIRS = {True: 40, False: 2}, {True: 20, False: 1}
+STRONG, WEAK, GREEDY = "search:shots=3000", "search:shots=300", "greedy"
+PAIRS, GREEDY_PAIRS = {True: 30, False: 2}, {True: 15, False: 1}
 SEED, ERRORS = 303, 2.5
 
 
