@@ -23,7 +23,7 @@ from referee.play.noise import OLYMPIAD_SIGMAS
 
 SEED = 20
 LEVELS = (0.5, 1.0, 2.0, 5.0)
-ROUNDS = ((600, 48), (100, 150), (24, 600), (6, 2500))
+ROUNDS = ((400, 40), (80, 100), (16, 500), (5, 2000))
 """Breaks kept, and how many racks and draws each is played on; a short run has a tenth of the breaks and leaves
 the last round out."""
 NEIGHBOURS, STEPS = 4, (0.015, 0.01, 0.25, 1.2, 1.0, 1.0)
