@@ -137,7 +137,7 @@ def decided(rules: EightBall, level: float, game: Game, decision: Decision) -> f
     """The worth to seat 0 when the player in turn decides so."""
     ruling = rules.apply(game, Action(decision=decision), None, None)
     if ruling.rerack:
-        breaking = worth_of_breaking(rules.table)
+        breaking = worth_of_breaking(rules.table, level)
         return breaking if ruling.game.turn == 0 else 1.0 - breaking
     return to_breaker(rules, level, ruling.game)
 
