@@ -39,8 +39,8 @@ MEASURED = {
     True: {0.0: Odds(0.096, 0.685), 1.0: Odds(0.096, 0.685), 2.0: Odds(0.22, 0.455), 5.0: Odds(0.026, 0.706)},
 }
 """By whether the table has jaws, and by level of noise; between two levels they are interpolated. Line
-`search_odds-20261130T200637`, seed 101, 10 minutes of processor time; at noise 0 hardly a ball is missed, and what holds
-at 1 serves."""
+`search_odds-20261130T200637`, seed 101, 10 minutes of processor time; at noise 0 hardly a ball is missed, and what
+holds at 1 serves."""
 
 
 @functools.lru_cache(maxsize=8)
