@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from client.agents.search.odds import odds
+from client.agents.search.odds import Odds, odds
 from client.agents.search.race import race
 from client.agents.search.shots import Floats, Groups, Tables
 from client.agents.search.sight import Sight, Valuation
@@ -18,6 +18,11 @@ class Values:
 
     sight: Sight
     noise: float
+
+    @property
+    def odds(self) -> Odds:
+        """What games bear out of what the race says."""
+        return odds(self.noise, self.sight.has_jaws)
 
     def after(self, before: Floats, positions: Floats, verdicts: Verdicts) -> Floats:
         """What each stroke's result is worth to the one who played it, (n,), in [0, 1]; `before` the tables before."""
@@ -49,4 +54,4 @@ class Values:
 
     def _borne_out(self, tables: Tables, before: Floats, hand: NDArray[np.bool_], valuation: Valuation) -> Floats:
         """What games say of it, (n,)."""
-        return odds(self.noise, self.sight.has_jaws).of(self.raced(tables, before, hand, valuation))
+        return self.odds.of(self.raced(tables, before, hand, valuation))
