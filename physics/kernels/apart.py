@@ -30,9 +30,12 @@ _LOADED: list[Any] = []
 
 
 def _type(kind: Any) -> Any:
-    """numba's type of ``int``, ``float``, ``bool``, None or a named tuple of them, whose other fields are addresses."""
+    """numba's type of ``int``, ``float``, ``bool``, None or a named tuple of them, whose other fields are addresses; an
+    array's is named by itself."""
     if kind is None:
         return types.none
+    if isinstance(kind, types.Type):
+        return kind
     if issubclass(kind, tuple):
         return numba.typeof(kind(*(0.0 if of is float else 0 for of in kind.__annotations__.values())))
     return {int: types.int64, float: types.float64, bool: types.boolean}[kind]
@@ -42,7 +45,7 @@ def apart(result: Any, tables: Any, *arguments: Any) -> Callable[[Any], Any]:
     """Decorator of a kernel: with a first argument of a type in ``tables`` it is compiled by itself.
 
     ``tables``: a class of workspace, or several. Types of the result and of the other arguments:
-    ``apart(int, RealWorkspace, float)``.
+    ``apart(int, RealWorkspace, float)``; an array by numba's type, see ``entry``.
     """
 
     def decorate(kernel: Any) -> Any:

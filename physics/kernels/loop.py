@@ -3,7 +3,6 @@
 import math
 
 from physics.kernels import layout as at
-from physics.kernels.apart import apart
 from physics.kernels.compiling import (
     kernel,
     load,
@@ -27,7 +26,6 @@ from physics.kernels.resolve.touching import bring
 from physics.kernels.start import note_frozen, note_start, place, restore
 from physics.kernels.strike import playable, read_stroke, strike
 from physics.kernels.tolerances import STEPS_PER_EVENT
-from physics.kernels.workspace import RealWorkspace, Workspace
 
 
 @small_kernel
@@ -160,8 +158,7 @@ def strike_off(s, shot):
     return status, settle(s, plain(at.CUE_BALL), plain(at.NOBODY), 0.0)
 
 
-@apart(None, (Workspace, RealWorkspace), int, int, int)
-@kernel
+@small_kernel
 def play(s, moving, balls, shot):
     """Simulate one shot, after ``reset``.
 

@@ -6,9 +6,11 @@ import numpy as np
 
 from physics.kernels import layout as at
 from physics.kernels.advance import advance
+from physics.kernels.apart import apart
 from physics.kernels.compiling import kernel, load, load_integer, row, small_kernel, store
 from physics.kernels.detect.line import may_lie_inside
 from physics.kernels.detect.mouths import may_stand
+from physics.kernels.entry import COUNTERS, FACTS, POCKETS, READ, WRITTEN
 from physics.kernels.loop import play
 from physics.kernels.motion import on_table
 from physics.kernels.recording import state_width, write_state
@@ -16,7 +18,7 @@ from physics.kernels.resolve.cloth import begin
 from physics.kernels.start import place, put_away, read_speeds, reset, restore
 from physics.kernels.strike import MILLIMETRE, lowest_elevation, obstacle, playable, read_stroke
 from physics.kernels.tolerances import TOUCH
-from physics.kernels.workspace import by_table
+from physics.kernels.workspace import RealWorkspace, Workspace, by_table
 
 may_lie = by_table(may_lie_inside, may_stand)
 """``may_lie(s, x, y, slack)``: whether a centre may rest at (x, y), from the table's centre."""
@@ -60,6 +62,7 @@ def collect(s, start, stride, final):
         store(final, 2 * i + 1, y if here else np.nan)
 
 
+@apart(None, (Workspace, RealWorkspace), int, READ, READ, WRITTEN, POCKETS, FACTS, int, COUNTERS)
 @kernel
 def simulate_row(s, n, states, shots, final, pockets, facts, rows, counters):
     """Simulate shot ``n`` of ``entries.simulate_rows``; ``rows``: events the trace has room for."""

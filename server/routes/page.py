@@ -3,8 +3,6 @@
 import hashlib
 import json
 import mimetypes
-import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -18,6 +16,7 @@ from protocol import TableDescription
 from referee.game import RULES
 from server.errors import NotFound
 from server.http.dependencies import Address, ContextDep, context_of
+from server.joined import joined
 from server.reference import reference
 from server.services.watch.previews import preview
 from tournament.luck import VALUE
@@ -25,11 +24,11 @@ from tournament.luck import VALUE
 router = APIRouter(include_in_schema=False)
 
 HOME: Final = "index.html"
-MAIN: Final = "main.js"
+MAIN: Final = "main"
+JOINED: Final = "page.js"
 HEAD_END: Final = b"\n  </head>"
-IMPORT: Final = re.compile(rb'^(?:import|\} from) [^;]*"\./([a-z_]+\.js)";', re.MULTILINE)
 RULES_FILE: Final = "rules.json"
-TABLES_FILE: Final = "tables.json"
+TABLES_SCRIPT: Final = "named_tables.js"
 RACKS_FILE: Final = "racks.json"
 VALUE_FILE: Final = "value.json"
 RACKS: Final = 10
@@ -73,29 +72,18 @@ class File:
 
 @cache
 def page_files() -> dict[str, File]:
-    """All files of `server/web`, by name, the referee's rules, the named tables, which even records need, and racks."""
+    """All files of `server/web`, by name; its scripts as one; the referee's rules, the named tables and racks."""
     found = [one for one in files("server").joinpath("web").iterdir() if one.is_file()]
     contents = {one.name: one.read_bytes() for one in found}
     contents[RULES_FILE] = json.dumps(dict(RULES)).encode()
     described = {name: TableDescription.of(Table.named(name)).model_dump(mode="json") for name in NAMED}
-    contents[TABLES_FILE] = json.dumps(described).encode()
+    contents[TABLES_SCRIPT] = f"export const NAMED = {json.dumps(described)};\n".encode()
     racked = {name: [rack(Table.named(name), seed=seed).to_dict() for seed in range(RACKS)] for name in NAMED}
     contents[VALUE_FILE] = json.dumps({"source": VALUE.source, "weights": dict(VALUE.weights)}).encode()
     contents[RACKS_FILE] = json.dumps(racked).encode()
-    contents[HOME] = contents[HOME].replace(HEAD_END, _preloads(contents) + HEAD_END)
+    scripts = {name.removesuffix(".js"): text.decode() for name, text in contents.items() if name.endswith(".js")}
+    contents[JOINED] = joined(scripts, MAIN).encode()
     return {name: File.of(name, content) for name, content in contents.items()}
-
-
-def _preloads(contents: Mapping[str, bytes]) -> bytes:
-    """Links by which a browser asks at once for every script that the first one imports, and for the tables."""
-    needed, names = [MAIN], [MAIN]
-    while names:
-        found = [match.decode() for match in IMPORT.findall(contents[names.pop()])]
-        fresh = [name for name in dict.fromkeys(found) if name not in needed]
-        needed, names = needed + fresh, names + fresh
-    links = [f'<link rel="modulepreload" href="/web/{name}">' for name in needed]
-    links.append(f'<link rel="preload" href="/web/{TABLES_FILE}" as="fetch" crossorigin>')
-    return "\n    ".join(["", *links]).encode()
 
 
 @router.get("/")

@@ -15,6 +15,9 @@ const DISC = 0.56;
 const DOT = 0.965;
 /** Pixels of a number's square: about as many as are shown, so that its soft edges stay soft. */
 const GLYPH = 24;
+const NUMBERS = 15;
+/** Numbers a pixel of a lit sphere. */
+const PARTS = 6;
 /** From ivory to black, by how much of a pixel is ink. */
 const INKS = Array.from({ length: 16 }, (_, ink) => IVORY.map((part, place) => part + (ink / 15) * (COLOURS[8][place] - part)));
 
@@ -33,12 +36,41 @@ export function isStriped(ball) {
   return ball > 8;
 }
 
+/**
+ * What is the same for every ball of a size, by pixel: cover (0: beside the ball), right, up and towards the eye of the
+ * surface in radii, factor and summand of its colour by the light.
+ * @param {number} radius device pixels @param {number} size of the square
+ * @returns {Float32Array} PARTS numbers a pixel
+ */
+function litSphere(radius, size) {
+  const sphere = new Float32Array(PARTS * size * size);
+  const middle = (size - 1) / 2;
+  for (let row = 0, at = 0; row < size; row++) {
+    for (let column = 0; column < size; column++, at += PARTS) {
+      const right = (column - middle) / radius;
+      const up = (middle - row) / radius;
+      const distance = Math.sqrt(right * right + up * up);
+      const cover = Math.min(1, Math.max(0, (1 - distance) * radius + 0.5));
+      if (cover > 0) sphere.set([cover, right, up, ...lit(right, up, distance)], at);
+    }
+  }
+  return sphere;
+}
+
+/** Light from the upper left, brightest where the surface faces it. @returns {number[]} towards the eye, factor, summand */
+function lit(right, up, distance) {
+  const z = Math.sqrt(Math.max(0, 1 - distance * distance));
+  const light = 0.66 + 0.4 * Math.max(0, 0.8 * z - 0.35 * right + 0.45 * up);
+  const shine = Math.max(0, 0.82 * z - 0.34 * right + 0.45 * up) ** 60 * 140;
+  return [z, light, shine];
+}
+
 export class BallPictures {
   constructor() {
-    /** @type {Map<number, Uint8ClampedArray>} the numbers, as coverage of a square */
-    this.glyphs = new Map();
     /** @type {Map<number, {canvas: HTMLCanvasElement, key: string}>} */
     this.pictures = new Map();
+    /** Of the last size asked for: all balls at rest have it. */
+    this.sphere = { radius: 0, lit: new Float32Array(0) };
   }
 
   /**
@@ -63,30 +95,32 @@ export class BallPictures {
     return kept.canvas;
   }
 
-  paint(canvas, ball, turned, radius, axes) {
+  paint(canvas, ball, turned, radius, { right, up }) {
     const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
-    const size = canvas.width;
-    const image = context.createImageData(size, size);
+    const { width } = canvas;
+    if (this.sphere.radius !== radius) this.sphere = { radius, lit: litSphere(radius, width) };
+    const sphere = this.sphere.lit;
+    const image = context.createImageData(width, width);
+    const { data } = image;
     const matrix = intoBall(turned);
-    const middle = (size - 1) / 2;
-    for (let row = 0; row < size; row++) {
-      for (let column = 0; column < size; column++) {
-        const right = (column - middle) / radius;
-        const up = (middle - row) / radius;
-        const distance = Math.sqrt(right * right + up * up);
-        const cover = Math.min(1, Math.max(0, (1 - distance) * radius + 0.5));
-        if (cover === 0) continue;
-        const z = Math.sqrt(Math.max(0, 1 - distance * distance));
-        const x = right * axes.right[0] + up * axes.up[0];
-        const y = right * axes.right[1] + up * axes.up[1];
-        const colour = this.colourAt(
-          ball,
-          matrix[0] * x + matrix[1] * y + matrix[2] * z,
-          matrix[3] * x + matrix[4] * y + matrix[5] * z,
-          matrix[6] * x + matrix[7] * y + matrix[8] * z,
-        );
-        shade(image.data, 4 * (row * size + column), colour, z, right, up, cover);
-      }
+    for (let at = 0, from = 0; at < data.length; at += 4, from += PARTS) {
+      const cover = sphere[from];
+      if (cover === 0) continue;
+      const x = sphere[from + 1] * right[0] + sphere[from + 2] * up[0];
+      const y = sphere[from + 1] * right[1] + sphere[from + 2] * up[1];
+      const z = sphere[from + 3];
+      const colour = this.colourAt(
+        ball,
+        matrix[0] * x + matrix[1] * y + matrix[2] * z,
+        matrix[3] * x + matrix[4] * y + matrix[5] * z,
+        matrix[6] * x + matrix[7] * y + matrix[8] * z,
+      );
+      const light = sphere[from + 4];
+      const shine = sphere[from + 5];
+      data[at] = colour[0] * light + shine;
+      data[at + 1] = colour[1] * light + shine;
+      data[at + 2] = colour[2] * light + shine;
+      data[at + 3] = 255 * cover;
     }
     context.putImageData(image, 0, 0);
   }
@@ -96,40 +130,34 @@ export class BallPictures {
     if (ball === 0) return Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > DOT ? RED : IVORY;
     const base = isStriped(ball) && Math.abs(z) > STRIPE ? IVORY : colourOf(ball);
     if (y * y + z * z > DISC * DISC || Math.abs(x) < 0.4) return base;
-    return INKS[this.glyph(ball)[pixel(x > 0 ? y : -y, z)] >> 4];
-  }
-
-  /** @param {number} ball @returns {Uint8ClampedArray} coverage, row by row */
-  glyph(ball) {
-    const known = this.glyphs.get(ball);
-    if (known) return known;
-    const canvas = document.createElement("canvas");
-    canvas.width = canvas.height = GLYPH;
-    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));
-    context.font = `700 ${ball > 9 ? 18 : 22}px sans-serif`;
-    context.textAlign = "center";
-    context.textBaseline = "middle";
-    context.fillText(String(ball), GLYPH / 2, GLYPH / 2 + 1);
-    const data = context.getImageData(0, 0, GLYPH, GLYPH).data;
-    const coverage = data.filter((_, place) => place % 4 === 3);
-    this.glyphs.set(ball, coverage);
-    return coverage;
+    return INKS[drawnNumbers()[pixel(ball, x > 0 ? y : -y, z)] >> 4];
   }
 }
 
-/** The glyph's pixel for a place on the number's disc. @param {number} u @param {number} v */
-function pixel(u, v) {
+/** @type {Uint8ClampedArray | null} */
+let numbers = null;
+
+/** All numbers, side by side; the font is looked up for the first. @returns {Uint8ClampedArray} coverage, row by row */
+export function drawnNumbers() {
+  if (numbers) return numbers;
+  const canvas = document.createElement("canvas");
+  canvas.width = NUMBERS * GLYPH;
+  canvas.height = GLYPH;
+  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  for (let ball = 1; ball <= NUMBERS; ball++) {
+    context.font = `700 ${ball > 9 ? 18 : 22}px sans-serif`;
+    context.fillText(String(ball), (ball - 0.5) * GLYPH, GLYPH / 2 + 1);
+  }
+  const { data } = context.getImageData(0, 0, canvas.width, GLYPH);
+  numbers = Uint8ClampedArray.from({ length: NUMBERS * GLYPH * GLYPH }, (_, place) => data[4 * place + 3]);
+  return numbers;
+}
+
+/** Where the coverage of a place on a number's disc stands. @param {number} ball @param {number} u @param {number} v */
+function pixel(ball, u, v) {
   const column = Math.min(GLYPH - 1, Math.max(0, Math.round(((u / DISC + 1) / 2) * (GLYPH - 1))));
   const row = Math.min(GLYPH - 1, Math.max(0, Math.round(((1 - v / DISC) / 2) * (GLYPH - 1))));
-  return row * GLYPH + column;
-}
-
-/** Light from the upper left, brightest where the surface faces it. */
-function shade(data, at, colour, z, right, up, cover) {
-  const light = 0.66 + 0.4 * Math.max(0, 0.8 * z - 0.35 * right + 0.45 * up);
-  const shine = Math.max(0, 0.82 * z - 0.34 * right + 0.45 * up) ** 60 * 140;
-  data[at] = colour[0] * light + shine;
-  data[at + 1] = colour[1] * light + shine;
-  data[at + 2] = colour[2] * light + shine;
-  data[at + 3] = 255 * cover;
+  return (row * NUMBERS + ball - 1) * GLYPH + column;
 }

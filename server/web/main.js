@@ -2,7 +2,6 @@
 
 import { isEmbedded } from "./api.js";
 import { announce, el, fill } from "./dom.js";
-import { loadTables } from "./tables.js";
 import { AgentView } from "./view_agent.js";
 import { GameView } from "./view_game.js";
 import { LobbyView } from "./view_lobby.js";
@@ -133,4 +132,4 @@ document.getElementById("skip")?.addEventListener("click", (event) => {
 document.documentElement.classList.toggle("embedded", isEmbedded());
 if (location.pathname !== "/" && !location.hash) history.replaceState(null, "", `/#${location.pathname}`); // a link that was posted: the server tells of the game there
 theme();
-loadTables().then(route);
+route();

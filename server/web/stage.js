@@ -1,5 +1,6 @@
 /** One stroke on the table: played, stopped, scrubbed; the cue before it, what was meant, the ghost without noise. */
 
+import { drawnNumbers } from "./ball_picture.js";
 import { isEmbedded } from "./api.js";
 import { el, fill } from "./dom.js";
 import { BALL_RADIUS, isOnTable } from "./motion.js";
@@ -49,6 +50,7 @@ export class Stage {
     this.changed = () => {};
     this.replay = this.controls();
     this.element = el("section", { class: "stage", "aria-label": "Table" }, this.holder, this.replay);
+    setTimeout(drawnNumbers); // while the balls are still asked for
     this.observer = new ResizeObserver(() => this.fit());
     this.observer.observe(this.holder);
   }

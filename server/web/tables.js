@@ -1,6 +1,10 @@
-/** Tables as the server describes them: names, parameters, and of those with jaws every line and arc. */
+/**
+ * Tables as the server describes them: names, parameters, and of those with jaws every line and arc. The named ones
+ * are part of the script, see `server/routes/page.py`: a table is drawn at once.
+ */
 
 import { call } from "./api.js";
+import { NAMED } from "./named_tables.js";
 
 /** @typedef {[number, number]} Point */
 /**
@@ -22,24 +26,17 @@ const SHAPING = [
 ];
 const NAMES = { olympiad: "Olympiad", fastfiz: "FastFiz", nine_foot: "nine-foot", eight_foot: "eight-foot", seven_foot: "seven-foot" };
 
-/** @type {Record<string, Description>} by name */
-let named = {};
 /** @type {Map<string, Description>} of tables with a shape of their own, by that */
 const others = new Map();
 
-/** The named tables, once at the start; without them tables are drawn with straight mouths. */
-export async function loadTables() {
-  named = await fetch("/web/tables.json").then((answer) => answer.json()).catch(() => named);
-}
-
 /** The names there are. */
 export function tableNames() {
-  return Object.keys(named);
+  return Object.keys(NAMED);
 }
 
 /** Every parameter of a named table. @param {string} name @returns {Record<string, any>} */
 export function namedTable(name) {
-  return named[name].table;
+  return NAMED[name].table;
 }
 
 /** A table by its name, as text. @param {string} name */
@@ -53,14 +50,14 @@ export function tableTitle(name) {
  */
 export function describeTable(table) {
   if (typeof table === "string") return tableTitle(table);
-  const usual = named[table.name]?.table ?? table;
+  const usual = NAMED[table.name]?.table ?? table;
   const own = Object.keys(table).filter((key) => key in usual && table[key] !== usual[key]);
   return tableTitle(table.name) + (own.length ? `, own ${own.map((key) => key.replaceAll("_", " ")).join(", ")}` : "");
 }
 
 /** Whether a table is exactly the one of its name. @param {Record<string, any>} table */
 export function isNamed(table) {
-  const usual = named[table.name]?.table;
+  const usual = NAMED[table.name]?.table;
   return Boolean(usual) && Object.keys(usual).every((key) => usual[key] === table[key]);
 }
 
@@ -72,7 +69,7 @@ export function hasJaws(table) {
 /** Where everything of a table with jaws is; null without jaws, or as long as it is not known. @param {Record<string, any>} table */
 export function shapeOf(table) {
   if (!hasJaws(table)) return null;
-  const usual = named[table.name];
+  const usual = NAMED[table.name];
   if (usual && SHAPING.every((key) => usual.table[key] === table[key])) return usual;
   return others.get(keyOf(table)) ?? null;
 }

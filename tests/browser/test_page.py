@@ -121,7 +121,15 @@ SMALL = """() => [...document.querySelectorAll('main button, main select, main i
 
 
 def test_headers_let_nothing_else_in(server):
-    for path in ("/", "/web/main.js", "/web/style.css", "/web/icon.svg", "/web/rules.json", "/web/tables.json"):
+    for path in (
+        "/",
+        "/web/page.js",
+        "/web/main.js",
+        "/web/style.css",
+        "/web/icon.svg",
+        "/web/rules.json",
+        "/web/named_tables.js",
+    ):
         answer = server.http.get(path)
         assert answer.status_code == 200, path
         policy = answer.headers["content-security-policy"]
