@@ -9,6 +9,7 @@ import shutil
 import statistics
 import tempfile
 from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,9 @@ CHILD = ROOT / "benchmarks" / "against_child.py"
 COUNTED = 4
 """One shot in so many is played under callgrind, which is fifty times slower."""
 
+STARTS = 8
+"""Of the processes that are timed."""
+
 PLAIN = {"NUMBA_CPU_NAME": "x86-64-v3", "NUMBA_CPU_FEATURES": ""}
 """Compiled for what valgrind knows; a processor's own instructions it may not."""
 
@@ -38,7 +42,7 @@ def measure(full: bool) -> Tables:
     with checkout(BASE) as base, tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         sides = {"base": Side(folder, base), "now": Side(folder, ROOT)}
-        shots, pairs = (8_000 if full else 2_000), 31
+        shots, pairs = (8_000 if full else 2_000), 32
         return {
             "compile": list(compiling(sides, 3 if full else 1)),
             "instructions": list(instructions(sides, every_scene(shots // COUNTED))),
@@ -160,20 +164,39 @@ def total(dump: str) -> int:
 
 
 def times(sides: dict[str, Side], given: Scenes, pairs: int) -> Iterator[Row]:
-    """CPU time of both, in turn: the median over pairs of their ratio; whether all outputs have the same bits."""
-    with sides["base"].start(given) as base, sides["now"].start(given) as now:
+    """CPU time of both, in turn: the median over pairs of their ratio; whether all outputs have the same bits.
+
+    Processes are started several times, each side first as often as the other: where a process' memory happens to lie
+    changes its time by some per cent, and the one that is started first is the slower of two equals.
+    """
+    same, rows = dict.fromkeys(given, True), {scene: list[tuple[float, float]]() for scene in given}
+    for turn in range(STARTS):
+        for scene, alike, found in _in_turn(sides, given, -(-pairs // STARTS), reverse=turn % 2 == 1):
+            same[scene] &= alike
+            rows[scene] += found
+    for scene, found in rows.items():
+        shots = len(given[scene]["shots"])
+        yield {
+            "scene": scene,
+            "shots": shots,
+            "same_bits": same[scene],
+            "base_us": round(statistics.median(row[0] for row in found) / shots * 1e6, 3),
+            "now_us": round(statistics.median(row[1] for row in found) / shots * 1e6, 3),
+            "ratio": round(statistics.median(row[1] / row[0] for row in found), 4),
+        }
+
+
+def _in_turn(
+    sides: dict[str, Side], given: Scenes, pairs: int, reverse: bool
+) -> Iterator[tuple[str, bool, list[tuple[float, float]]]]:
+    """Of each scene, by two fresh processes: its name, whether the outputs are the same, times of base and now, s."""
+    with ExitStack() as stack:
+        order = sorted(sides, reverse=reverse)
+        children = {name: stack.enter_context(sides[name].start(given)) for name in order}
         for scene in given:
-            same = base.ask(f"bits {scene}") == now.ask(f"bits {scene}")
-            rows = [(base.ask(f"time {scene}"), now.ask(f"time {scene}")) for _ in range(pairs)]
-            shots = len(given[scene]["shots"])
-            yield {
-                "scene": scene,
-                "shots": shots,
-                "same_bits": same,
-                "base_us": round(statistics.median(row[0] for row in rows) / shots * 1e6, 3),
-                "now_us": round(statistics.median(row[1] for row in rows) / shots * 1e6, 3),
-                "ratio": round(statistics.median(row[1] / row[0] for row in rows), 4),
-            }
+            hashes = {child.ask(f"bits {scene}") for child in children.values()}
+            played = [{name: float(children[name].ask(f"time {scene}")) for name in order} for _ in range(pairs)]
+            yield scene, len(hashes) == 1, [(one["base"], one["now"]) for one in played]
 
 
 if __name__ == "__main__":

@@ -52,7 +52,15 @@ def main() -> None:
     with listening("127.0.0.1", options.port) as server_socket:
         print(json.dumps({"url": f"http://127.0.0.1:{server_socket.getsockname()[1]}"}), flush=True)
         app = app_of(options.database, options.answer, options.store)
-        config = uvicorn.Config(app, http="h11", ws="none", access_log=False, log_level="warning", server_header=False)
+        config = uvicorn.Config(
+            app,
+            http="httptools",
+            loop="uvloop",
+            ws="none",
+            access_log=False,
+            log_level="warning",
+            server_header=False,
+        )
         uvicorn.Server(config).run([server_socket])
 
 

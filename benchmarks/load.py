@@ -41,21 +41,29 @@ def measure(full: bool) -> Tables:
 
 
 async def compare(games: int, seconds: float) -> list[Row]:
-    """The server's row and the bare endpoint's."""
-    with tempfile.TemporaryDirectory() as folder:
-        database = Path(folder) / "pooliad.db"
-        with serving("server", "--database", f"sqlite:///{database}") as port:
-            await ready(port)
-            played = await play(port, games, seconds)
-        size, kept = (total // max(1, played.shots) for total in stored_bytes(database))
+    """The rows of the server, with `group_commit` off and on, and of the bare endpoint."""
+    played, size, kept = await _played(games, seconds, group_commit=False)
+    together, *_ = await _played(games, seconds, group_commit=True)
     answer, request = int(np.mean(played.answered)), int(np.mean(played.sent))
     with tempfile.TemporaryDirectory() as folder:
         options = ("--answer", str(answer), "--store", str(size), "--database", f"{folder}/bare.db")
         with serving("benchmarks.bare_endpoint", *options) as port:
             bare = await hammer(port, games, seconds, request)
-    shares = {"of_bare": played.rate / bare.rate}
     sizes = {"answer_bytes": answer, "stored_bytes": size, "kept_bytes": kept}
-    return [played.row("server", games) | shares | sizes, bare.row("bare endpoint", games) | {"of_bare": 1.0} | sizes]
+    sides = {"server": played, "server, group_commit": together, "bare endpoint": bare}
+    return [seen.row(what, games) | {"of_bare": seen.rate / bare.rate} | sizes for what, seen in sides.items()]
+
+
+async def _played(games: int, seconds: float, *, group_commit: bool) -> tuple["Tally", int, int]:
+    """What a server made of it, and the bytes of a shot: written, and left when the answers are deleted."""
+    with tempfile.TemporaryDirectory() as folder:
+        database = Path(folder) / "pooliad.db"
+        settings = {"GROUP_COMMIT": str(group_commit).lower()}
+        with serving("server", "--database", f"sqlite:///{database}", settings=settings) as port:
+            await ready(port)
+            played = await play(port, games, seconds)
+        size, kept = (total // max(1, played.shots) for total in stored_bytes(database))
+        return played, size, kept
 
 
 class Tally:

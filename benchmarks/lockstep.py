@@ -60,7 +60,8 @@ class Turn:
     Attributes:
         seat: who played it. positions: (16, 2) m, the table before, the cue ball placed. group: of the shooter.
         called: whether a ball was called, not a safety. made: whether it fell so, without a foul.
-        goes_on: whether the player shoots again. worth: what the player reckoned it to be worth; None if it tells none.
+        goes_on: whether the player shoots again. worth: what the player reckoned it to be worth; None if it tells
+            none. hand: whether the cue ball was in hand.
     """
 
     seat: int
@@ -70,6 +71,7 @@ class Turn:
     made: bool
     goes_on: bool
     worth: float | None
+    hand: bool = False
 
 
 @dataclass(slots=True)
@@ -79,7 +81,7 @@ class Played:
     Attributes:
         pair: which. breaker, winner: players, not seats of the pair's table; winner None for a draw.
         turns: called strokes. visits: by player, whether it was ever at the table after the break.
-        run_out: whether the breaker won without giving up the table.
+        kept: whether the breaker went on after the break. run_out: whether it won without giving up the table.
         strokes, simulated, seconds: by player: strokes but breaks, shots it simulated, processor time if known.
     """
 
@@ -87,6 +89,7 @@ class Played:
     breaker: int
     winner: int | None = None
     turns: list[Turn] = field(default_factory=list)
+    kept: bool = False
     run_out: bool = True
     strokes: list[int] = field(default_factory=lambda: [0, 0])
     simulated: list[int] = field(default_factory=lambda: [0, 0])
@@ -172,6 +175,8 @@ class Running:
             stroke = play_stroke(self._rules, game, action, self._seeds, self._noise, trace=False)
             self._game = stroke.game
             self.played.run_out &= seat == self.played.breaker
+            if action.shot is not None and action.call is None:
+                self.played.kept = self._game.turn == seat and self._game.phase is Phase.PLAY
             if action.call is not None:
                 self._note(game, action, worth, stroke.ruling.made)
                 self.played.strokes[seat] += 1
@@ -188,7 +193,8 @@ class Running:
         goes_on = self._game.outcome is None and self._game.turn == before.turn
         group, called = GROUPS[before.group_of(before.turn)], isinstance(action.call, Call)
         if before.phase is Phase.PLAY:
-            self.played.turns.append(Turn(before.turn, positions, group, called, made, goes_on, worth))
+            hand = before.cue_ball_in_hand is not None
+            self.played.turns.append(Turn(before.turn, positions, group, called, made, goes_on, worth, hand))
 
 
 def _terms(rules: EightBall, noise: NoiseModel, name: str) -> GameTerms:

@@ -22,8 +22,8 @@ from referee import Action, Decision, EightBall, Game, Phase, RuleId, Ruling
 from referee.play.noise import OLYMPIAD_SIGMAS
 
 SEED = 20
-LEVELS = (0.0, 1.0, 5.0)
-ROUNDS = ((1000, 48), (150, 200), (30, 1000), (6, 5000))
+LEVELS = (0.5, 1.0, 2.0, 5.0)
+ROUNDS = ((400, 40), (80, 100), (16, 500), (5, 2000))
 """Breaks kept, and how many racks and draws each is played on; a short run has a tenth of the breaks and leaves
 the last round out."""
 NEIGHBOURS, STEPS = 4, (0.015, 0.01, 0.25, 1.2, 1.0, 1.0)
@@ -137,7 +137,7 @@ def decided(rules: EightBall, level: float, game: Game, decision: Decision) -> f
     """The worth to seat 0 when the player in turn decides so."""
     ruling = rules.apply(game, Action(decision=decision), None, None)
     if ruling.rerack:
-        breaking = worth_of_breaking(rules.table)
+        breaking = worth_of_breaking(rules.table, level)
         return breaking if ruling.game.turn == 0 else 1.0 - breaking
     return to_breaker(rules, level, ruling.game)
 

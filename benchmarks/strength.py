@@ -2,8 +2,9 @@
 
 `python -m benchmarks.strength play --player search:shots=10000 --opponent search:shots=1000 --noise 2 --pairs 1500
 --plan "1,500 pairs, decided before the first"` plays one match-up and appends a line. The number of pairs is told
-beforehand and played whole; a line says what was planned. `search:seconds=0.1,cpu=on@8336b41` is the player of that
-commit, in a checkout of its own. Match-ups of players with `shots` are repeated exactly.
+beforehand and played whole; a line says what was planned. `... pool LINE ...` puts lines together into one, for tables
+in documents. `search:seconds=0.1,cpu=on@8336b41` is the player of that commit, in a checkout of its own. Match-ups of
+players with `shots` are repeated exactly.
 """
 
 import argparse
@@ -88,6 +89,8 @@ def side(games: Sequence[Played], player: int, prefix: str) -> Row:
     called = [turn.made for game in games for turn in game.turns if turn.seat == player and turn.called]
     row = {
         "breaks": len(broke),
+        "breaks_kept": round(sum(game.kept for game in broke) / max(1, len(broke)), 4),
+        "breaks_won": round(sum(game.winner == player for game in broke) / max(1, len(broke)), 4),
         "break_and_run": round(runs / max(1, len(broke)), 4),
         "break_and_run_low_95": round(float(interval.low), 4),
         "break_and_run_high_95": round(float(interval.high), 4),
@@ -158,8 +161,24 @@ def log_loss(chance: np.ndarray, won: np.ndarray) -> float:
     return round(float(-np.mean(np.where(won > 0.5, np.log(known), np.log(1.0 - known)))), 4)
 
 
+def pooled(names: Sequence[str]) -> Tables:
+    """The tables of several lines as one, each row with the line that it is from.
+
+    Raises:
+        ValueError: there is no such line.
+    """
+    known = {line["id"]: line for line in recording.lines("strength")}
+    for name in names:
+        if name not in known:
+            raise ValueError(f"line = {name!r}: must be the id of a line in {recording.path_of('strength').name}")
+    return {
+        title: [row | {"line": name} for name in names for row in known[name]["tables"][title]]
+        for title in ("matches", "ends", "reckoned")
+    }
+
+
 def main() -> None:
-    """Play one match-up, or the plan."""
+    """Play one match-up, or the plan; or put lines together."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.strength")
     commands = parser.add_subparsers(dest="command")
     one = commands.add_parser("play")
@@ -171,10 +190,14 @@ def main() -> None:
     one.add_argument("--first", type=int, default=0)
     one.add_argument("--seed", type=int, default=0)
     one.add_argument("--plan", required=True, help="what was decided before the first game, and why")
+    commands.add_parser("pool").add_argument("lines", nargs="+", help="ids of lines, to be shown in one table")
     parser.add_argument("--full", action="store_true")
     given = parser.parse_args()
     if given.command is None:
         recording.run("strength", measure, given.full)
+        return
+    if given.command == "pool":
+        recording.run("strength", lambda _full: pooled(given.lines), full=True)
         return
     match = MatchUp((given.player, given.opponent), given.noise, given.table, given.seed, given.first, given.pairs)
     recording.run("strength", lambda _full: tables([match], given.plan), full=True)

@@ -27,6 +27,8 @@ DESCENT_ENOUGH = 0.03
 """Fall of the cost in a step, in standard deviations squared, below which a descent ends."""
 RELATIVE_STEP = 1e-6
 """Of a finite difference by a parameter."""
+HELD_OF_START, HELD_OF_RANGE = 0.5, 0.05
+"""Standard deviation of a parameter that is held: part of its value at the start, or of its range if that is more."""
 AT_EDGE = 1e-6
 """Part of its range that keeps a parameter's start off its bounds, as the method demands."""
 
@@ -111,9 +113,19 @@ class JointFit:
         self._low, self._high = low, high
         margin = AT_EDGE * (high - low)
         self._start = np.array([one.start for one in parameters])
+        self._hold = high - low
         self.values = np.clip(self._start, low + margin, high - margin)
         self.parts: list[Curvature] = []
         self._tried: dict[bytes, list[ShotFit | None]] = {}
+
+    def hold(self, firmly: bool) -> None:
+        """Hold parameters by where the fit begins: firmly while shots are matched in part, else next to not at all.
+
+        The first meetings say little of some parameters, which would wander to where later ones say nothing of them.
+        """
+        width = self._high - self._low
+        firm = np.maximum(HELD_OF_START * np.abs(self._start), HELD_OF_RANGE * width)
+        self._hold = firm if firmly else width
 
     @property
     def table(self) -> Table:
@@ -154,7 +166,7 @@ class JointFit:
             np.full(len(member.weights), 1e3) if fit is None else fit.residuals
             for member, fit in zip(self.members, fits, strict=True)
         ]
-        return np.concatenate((*rows, (values - self._start) / (self._high - self._low)))
+        return np.concatenate((*rows, (values - self._start) / self._hold))
 
     def _slopes(self, values: Floats) -> Floats:
         if not np.array_equal(values, self.values):
@@ -163,7 +175,7 @@ class JointFit:
             part.by_parameters - fit_space @ (fit_space.T @ part.by_parameters)
             for part, fit_space in zip(self.parts, self._spaces, strict=True)
         ]
-        return np.concatenate((*rows, np.diag(1.0 / (self._high - self._low))))
+        return np.concatenate((*rows, np.diag(1.0 / self._hold)))
 
     def _fits(self, values: Floats) -> list[ShotFit | None]:
         key = values.tobytes()
@@ -228,11 +240,10 @@ class JointFit:
     def _refined(self, member: Member, table: Table) -> ShotFit:
         """The member's fit with slopes of its own place."""
         nuisances = member.fit.nuisances
-        plain = member.model.residuals(table, nuisances)
-        if plain is None:
+        plain, slopes = member.model.linearised(table, nuisances)
+        if np.isnan(plain[0]):
             return member.fit
-        slopes = member.weights[:, None] * member.model.slopes(table, nuisances, plain)
-        return ShotFit(nuisances, member.weights * plain, slopes)
+        return ShotFit(nuisances, member.weights * plain, member.weights[:, None] * slopes)
 
     def _stepped(self, number: int) -> tuple[float, Table]:
         """A step of one parameter within its range, and the table there."""
@@ -244,12 +255,10 @@ class JointFit:
         return step, self.table_at(values)
 
     def _by_parameters(self, member: Member, stepped: list[tuple[float, Table]]) -> Floats:
-        columns = np.zeros((len(member.weights), len(stepped)))
-        for column, (step, table) in enumerate(stepped):
-            found = member.model.residuals(table, member.fit.nuisances)
-            if found is not None:
-                columns[:, column] = (member.weights * found - member.fit.residuals) / step
-        return columns
+        steps = np.array([step for step, _ in stepped])
+        found = member.model.rows_on([table for _, table in stepped], member.fit.nuisances)
+        columns: Floats = (member.weights * found - member.fit.residuals) / steps[:, None]
+        return np.nan_to_num(columns.T)
 
     def descend(self, most: int) -> None:
         """Damped steps of parameters and nuisances together, at most this many: from afar, along curved valleys.
@@ -257,6 +266,7 @@ class JointFit:
         Levenberg and Marquardt's method with geodesic acceleration, each step's equations reduced shot by shot.
         """
         damping = FIRST_DAMPING
+        self._tried = {}  # fits of before: the members' weights or fits may be others now
         for _ in range(most):
             self._linearise(self.values)
             step = self._step(damping)
@@ -312,7 +322,7 @@ class JointFit:
         return fits
 
     def _held(self) -> Floats:
-        return np.diag(1.0 / (self._high - self._low) ** 2)
+        return np.diag(1.0 / self._hold**2)
 
     @property
     def cost(self) -> float:

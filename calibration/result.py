@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 
 from calibration.observed import Floats
-from calibration.shot_model import STROKE
+from calibration.shot_model import STROKE, THETA, elevation_slope
 from calibration.staged import StagedShot
 from physics import Result, Shot, Table
 
@@ -125,9 +125,9 @@ def explained(staged: StagedShot, table: Table, scale: float) -> ExplainedShot:
     """A shot after the fit; ``scale``: mean square that noise alone is taken to give."""
     model, fit = staged.model, staged.member.fit
     nuisances = fit.nuisances
-    stroke = Shot(*nuisances[: len(STROKE)].tolist())
+    stroke = model.stroke(nuisances)
     result = model.run(table, nuisances)
-    plain = np.full(model.n_samples, np.nan) if result is None else model.residuals_of(result, nuisances)
+    (plain,) = model.rows(table, nuisances[None])
     n = len(model.shot.times)
     off = model.sigma * plain[: 2 * n].reshape(n, 2)
     weights = staged.weights(staged.horizon)
@@ -168,6 +168,7 @@ def _stroke_information(staged: StagedShot) -> tuple[Floats, Floats]:
     n, k = model.n_samples, len(STROKE)
     slopes, residuals = fit.slopes.copy(), fit.residuals.copy()
     slopes[n : n + k], residuals[n : n + k] = 0.0, 0.0
+    slopes[:, THETA] /= elevation_slope(float(fit.nuisances[THETA]))
     stroke, others = slopes[:, :k], slopes[:, k:]
     space = np.linalg.qr(others)[0]
     projected = stroke - space @ (space.T @ stroke)

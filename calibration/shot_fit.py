@@ -101,15 +101,11 @@ def search_shot(
 
     A shot whose events come in a wrong order cannot leave it by small steps; draws can.
     """
-    root = np.linalg.cholesky(np.linalg.inv(about.slopes.T @ about.slopes + 1e-9 * np.eye(len(model.scales))))
-    offsets = spread * rng.standard_normal((DRAWS, len(model.scales))) @ root.T
-    starts = []
-    for offset in offsets:
-        there = about.nuisances + model.scales * offset
-        there[2] = abs(there[2])
-        found = model.residuals(table, there)
-        if found is not None:
-            starts.append((float(np.sum(np.log1p((weights * found) ** 2))), there))
-    starts.sort(key=lambda pair: pair[0])
-    fits = [fit_shot(model, table, there, weights) for _, there in starts[:BEST_DRAWS]]
+    _, sizes, across = np.linalg.svd(about.slopes, full_matrices=False)
+    root = across / np.sqrt(sizes * sizes + 1e-9)[:, None]
+    offsets = spread * rng.standard_normal((DRAWS, len(sizes))) @ root
+    starts = about.nuisances + model.scales * offsets
+    off = np.log1p((weights * model.rows(table, starts)) ** 2).sum(axis=1)
+    best = np.argsort(np.where(np.isnan(off), np.inf, off))[:BEST_DRAWS]
+    fits = [fit_shot(model, table, start, weights) for start in starts[best]]
     return min((fit for fit in fits if fit is not None), key=lambda fit: fit.cost, default=None)

@@ -4,15 +4,20 @@ Those unknowns, the *nuisances*, are the stroke, the time of the strike if the d
 that moved lay at the start. Each has a prior: what was intended, or next to nothing.
 """
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
+from numpy.typing import NDArray
 
 from calibration.observed import Floats, Integers, ObservedShot
 from calibration.start import first_velocity, places_at_rest, stroke_for
-from physics import InvalidState, Result, Shot, Status, Table, TableState, simulate
+from physics import Result, Shot, Status, Table, TableState, simulate, simulate_paths
 from physics.constants import BALL_RADIUS, N_BALLS
 from physics.events import EventKind
 
 STROKE = ("v", "phi", "theta", "a", "b")
+THETA = STROKE.index("theta")
 SCALES = {"v": 0.1, "phi": 0.1, "theta": 0.5, "a": 1.0, "b": 1.0, "strike": 0.01, "place": 1e-3}
 """Natural sizes: m/s, deg, deg, mm, mm, s, m. Nuisances are counted in these."""
 DIFFERENCE = 1e-4
@@ -22,6 +27,8 @@ INTENDED = {"v": 0.5, "phi": 2.0, "theta": 0.5, "a": 3.0, "b": 3.0}
 UNKNOWN = {"v": 3.0, "phi": 30.0, "theta": 1.0, "a": 8.0, "b": 8.0}
 """The same about the first guess, where nothing is known; places and times of strikes have those below."""
 PLACE_SIGMA, STRIKE_SIGMA = 0.05, 0.1
+LEVEL = 0.1
+"""deg: half of it is the elevation where its nuisance is 0; far above, elevation and nuisance are the same."""
 TOUCHING_SQUARED = (2.0 * BALL_RADIUS) ** 2
 MOST_PARTINGS = 50
 """Rounds that part overlapping balls: a rack of 15 needs several."""
@@ -38,6 +45,7 @@ class ShotModel:
     Attributes:
         shot: as observed. sigma: m, noise of a coordinate.
         names: of the nuisances: those of ``STROKE``, perhaps ``strike``, then ``x0``, ``y0``, ... of the moving balls.
+            That of ``theta`` is any number: ``elevation`` has the angle to it.
         scales, means, sigmas: (k,) natural size, prior mean and prior standard deviation of each, in its own unit.
         n_samples: rows of residuals that belong to samples; k rows of the priors follow them.
     """
@@ -47,6 +55,9 @@ class ShotModel:
         lay = {ball: places_at_rest(shot, ball, sigma) for ball in shot.numbers}
         self._at_rest = {ball: place for ball, (place, _) in lay.items()}
         self._moving = [ball for ball in shot.numbers if ball == 0 or lay[ball][1] < len(shot.of_ball(ball))]
+        self._numbers = list(shot.numbers)
+        self._columns = np.searchsorted(shot.numbers, shot.balls)
+        self._one, self._other = np.triu_indices(len(shot.numbers), 1)
         self._strike_known = strike_known
         self._unique, self._which = np.unique(shot.times, return_inverse=True)
         self._seen_high = np.flatnonzero(~np.isnan(shot.heights)) if table.flies else np.zeros(0, np.int64)
@@ -65,7 +76,8 @@ class ShotModel:
         means, sigmas = [], []
         for name in STROKE:
             intended = getattr(self.shot.stroke, name)
-            means.append(guess[name] if intended is None else intended)
+            mean = guess[name] if intended is None else intended
+            means.append(elevation_nuisance(mean) if name == "theta" else mean)
             sigmas.append((UNKNOWN if intended is None else INTENDED)[name])
         if not self._strike_known:
             means.append(strike)
@@ -92,20 +104,40 @@ class ShotModel:
 
     def run(self, table: Table, nuisances: Floats) -> Result | None:
         """The shot simulated; None if it cannot be played."""
-        positions = np.full((N_BALLS, 2), np.nan)
-        for ball, place in self._at_rest.items():
-            positions[ball] = place
-        positions[self._moving] = nuisances[-2 * len(self._moving) :].reshape(-1, 2)
-        v, phi, theta, a, b = nuisances[:5].tolist()
-        if not (0.0 < v <= table.v_max and 0.0 <= theta <= table.theta_max):
+        playable, positions, strokes = self._starts(table, nuisances[None])
+        if not playable[0]:
             return None
-        if a * a + b * b > 0.9e6 * BALL_RADIUS * BALL_RADIUS:
-            return None
-        try:
-            result = simulate(table, TableState.trusted(placed(table, positions)), Shot(v, phi, theta, a, b))
-        except InvalidState:
-            return None
+        result = simulate(table, TableState.trusted(positions[0]), Shot(*strokes[0].tolist()))
         return result if result.status is Status.AT_REST else None
+
+    def _starts(self, table: Table, nuisances: Floats) -> tuple[NDArray[np.bool_], Floats, Floats]:
+        """Which rows (r, k) can be tried, and their positions (r, 16, 2) and strokes (r, 5)."""
+        strokes = nuisances[:, : len(STROKE)].copy()
+        strokes[:, THETA] = elevation(strokes[:, THETA])
+        v, theta, a, b = strokes[:, 0], strokes[:, THETA], strokes[:, 3], strokes[:, 4]
+        playable = (v > 0.0) & (v <= table.v_max) & (theta <= table.theta_max)
+        playable &= a * a + b * b <= 0.9e6 * BALL_RADIUS * BALL_RADIUS
+        positions = np.full((len(nuisances), N_BALLS, 2), np.nan)
+        for ball, place in self._at_rest.items():
+            positions[:, ball] = place
+        positions[:, self._moving] = nuisances[:, -2 * len(self._moving) :].reshape(len(nuisances), -1, 2)
+        here = positions[:, self._numbers]
+        across = here[:, self._one] - here[:, self._other]
+        squares = across[:, :, 0] ** 2 + across[:, :, 1] ** 2
+        inside = table.contains(here[:, :, 0], here[:, :, 1]).all(axis=1)
+        wrong = ((squares < TOUCHING_SQUARED) & (squares > 0.0)).any(axis=1) | ~inside
+        if wrong.any():
+            for row in np.flatnonzero(wrong).tolist():
+                placed(table, positions[row])
+            here = positions[:, self._numbers]
+            playable &= table.contains(here[:, :, 0], here[:, :, 1]).all(axis=1)
+        return playable, positions, strokes
+
+    def stroke(self, nuisances: Floats) -> Shot:
+        """The stroke that these stand for."""
+        stroke = nuisances[: len(STROKE)].copy()
+        stroke[THETA] = elevation(stroke[THETA])
+        return Shot(*stroke.tolist())
 
     def strike_time(self, nuisances: Floats) -> float:
         """s, in the data's time."""
@@ -113,50 +145,88 @@ class ShotModel:
 
     def residuals(self, table: Table, nuisances: Floats) -> Floats | None:
         """(n_samples + k,) in standard deviations: of the samples, then of the nuisances; None if unplayable."""
-        result = self.run(table, nuisances)
-        return None if result is None else self.residuals_of(result, nuisances)
+        (row,) = self.rows(table, nuisances[None])
+        return None if row[0] != row[0] else row
 
-    def residuals_of(self, result: Result, nuisances: Floats) -> Floats:
-        """The same of a simulated shot."""
-        times = np.clip(self._unique - self.strike_time(nuisances), 0.0, result.duration)
-        places, heights = result.paths(times)
-        seen = places[self._which, self.shot.balls]
-        if np.isnan(seen).any():
-            seen = self._filled(result, seen)
-        off = (seen - self.shot.places) / self.sigma
-        prior = (nuisances - self.means) / self.sigmas
+    def rows(self, table: Table, nuisances: Floats) -> Floats:
+        """The same of many nuisances (r, k) at once: (r, n_samples + k), NaN in the rows that are unplayable."""
+        playable, positions, strokes = self._starts(table, nuisances)
+        if playable.all():
+            return self._rows(table, nuisances, positions, strokes)
+        found = np.full((len(nuisances), self.n_samples + len(self.names)), np.nan)
+        if playable.any():
+            found[playable] = self._rows(table, nuisances[playable], positions[playable], strokes[playable])
+        return found
+
+    def rows_on(self, tables: Sequence[Table], nuisances: Floats) -> Floats:
+        """The same of one shot's nuisances (k,) on many tables: (r, n_samples + k)."""
+        playable, positions, strokes = self._starts(tables[0], nuisances[None])
+        found = np.full((len(tables), self.n_samples + len(self.names)), np.nan)
+        here = positions[0, self._numbers]
+        x, y = here[:, 0], here[:, 1]
+        fit = [row for row, table in enumerate(tables) if table.contains(x, y).all() and strokes[0, 0] <= table.v_max]
+        if playable[0] and fit:
+            one = (np.repeat(given, len(fit), axis=0) for given in (nuisances[None], positions, strokes))
+            found[fit] = self._rows([tables[row] for row in fit], *one)
+        return found
+
+    def _rows(self, tables: Table | Sequence[Table], nuisances: Floats, positions: Floats, strokes: Floats) -> Floats:
+        times = self._unique if self._strike_known else self._unique - nuisances[:, len(STROKE), None]
+        paths = simulate_paths(tables, positions, strokes, times, self._numbers)
+        seen = paths.positions[:, self._which, self._columns]
+        gone = np.isnan(seen)
+        if gone.any():
+            seen = np.where(gone, paths.left[:, self._columns], seen)
+        n, count = len(self.shot.times), len(nuisances)
+        parts = [((seen - self.shot.places) / self.sigma).reshape(count, 2 * n)]
         rows = self._seen_high
-        if len(rows) == 0:
-            return np.concatenate((off.ravel(), prior))
-        high = np.nan_to_num(heights[self._which[rows], self.shot.balls[rows]]) - self.shot.heights[rows]
-        return np.concatenate((off.ravel(), high / self.sigma, prior))
-
-    def _filled(self, result: Result, seen: Floats) -> Floats:
-        """A ball that has left the table stays where it left it."""
-        left = {event.ball: event.states[0].position for event in result.events.of(EventKind.POCKET_COLLISION)}
-        left |= {event.ball: event.states[0].position for event in result.events.of(EventKind.OFF_TABLE)}
-        for row in np.flatnonzero(np.isnan(seen[:, 0])).tolist():
-            ball = int(self.shot.balls[row])
-            seen[row] = left.get(ball, self._at_rest[ball])
-        return seen
+        if len(rows):
+            high = np.nan_to_num(paths.heights[:, self._which[rows], self._columns[rows]]) - self.shot.heights[rows]
+            parts.append(high / self.sigma)
+        found: Floats = np.concatenate((*parts, (nuisances - self.means) / self.sigmas), axis=1)
+        found[paths.status != Status.AT_REST.value] = np.nan
+        return found
 
     def meetings(self, result: Result) -> list[tuple[float, str]]:
         """(time since the strike, words) of every event of a seen ball whose order must be found."""
         found = [event for event in result.events if event.kind in MEETINGS]
         return [(event.time, str(event).split("s  ", 1)[1]) for event in found]
 
+    def linearised(self, table: Table, nuisances: Floats) -> tuple[Floats, Floats]:
+        """``residuals`` (n_samples + k,), NaN if unplayable, and their ``slopes``."""
+        steps = np.vstack((np.zeros(len(nuisances)), DIFFERENCE * np.diag(self.scales)))
+        plain, *stepped = self.rows(table, nuisances + steps)
+        return plain, self._slopes(table, nuisances, plain, np.array(stepped))
+
     def slopes(self, table: Table, nuisances: Floats, residuals: Floats) -> Floats:
         """(n_samples + k, k) derivatives of the residuals by the nuisances, these in natural sizes."""
-        columns = np.zeros((len(residuals), len(nuisances)))
-        for column, scale in enumerate(self.scales.tolist()):
-            for step in (DIFFERENCE, -DIFFERENCE):
-                moved = nuisances.copy()
-                moved[column] += step * scale
-                stepped = self.residuals(table, moved)
-                if stepped is not None:
-                    columns[:, column] = (stepped - residuals) / step
-                    break
-        return columns
+        stepped = self.rows(table, nuisances + DIFFERENCE * np.diag(self.scales))
+        return self._slopes(table, nuisances, residuals, stepped)
+
+    def _slopes(self, table: Table, nuisances: Floats, residuals: Floats, stepped: Floats) -> Floats:
+        columns = (stepped - residuals) / DIFFERENCE
+        lost = np.flatnonzero(np.isnan(columns[:, 0]))
+        if len(lost):
+            back = DIFFERENCE * np.diag(self.scales)[lost]
+            columns[lost] = (self.rows(table, nuisances - back) - residuals) / -DIFFERENCE
+        return np.nan_to_num(columns.T)
+
+
+def elevation(nuisances: Floats) -> Floats:
+    """deg, above 0 for every number: smooth, so that a level cue is no edge at which a fit stops."""
+    raised: Floats = 0.5 * (nuisances + np.hypot(nuisances, LEVEL))
+    return raised
+
+
+def elevation_nuisance(theta: float) -> float:
+    """The number that ``elevation`` gives this angle for; that of half of ``LEVEL`` for less."""
+    above = max(theta, 0.5 * LEVEL)
+    return above - 0.25 * LEVEL * LEVEL / above
+
+
+def elevation_slope(nuisance: float) -> float:
+    """Derivative of ``elevation``."""
+    return 0.5 * (1.0 + nuisance / math.hypot(nuisance, LEVEL))
 
 
 def placed(table: Table, positions: Floats) -> Floats:

@@ -34,6 +34,9 @@ PATIENCE = 2
 """Rounds without progress before a shot is given up."""
 SPREADS = (2.0, 6.0)
 """How far starts are drawn, in standard deviations of the nuisances; every second time the second."""
+WALKED, WALK_SPREADS, MOST_WALKED = 1.5, (1.0, 2.0), 40
+"""Root mean square above which starts are drawn for a shot that is begun anew at parameters near the right ones, how
+far, and over how many meetings: a ball that rattles in a jaw has many more."""
 CAUGHT = 0.5
 """Fall of the cost, in standard deviations squared, that slopes may promise at a smooth minimum."""
 BADLY = 2.5
@@ -52,12 +55,14 @@ class StagedShot:
     Attributes:
         member: its place in the joint fit. horizon: s of the data, up to where it is matched; infinite at the end.
         given_up: no order of events was found that goes further.
+        is_searched: other orders were looked for in vain, with the other shots' parameters.
     """
 
     def __init__(self, model: ShotModel, shot: ObservedShot, table: Table) -> None:
         self.model = model
         self.horizon = -np.inf
         self.given_up = False
+        self.is_searched = False
         self._failed = 0
         bad = outliers(shot, model.sigma)
         self.outliers = bad
@@ -79,9 +84,7 @@ class StagedShot:
     def _begun(self, table: Table) -> Member:
         """The samples before the first meeting; at least those of the first guess."""
         model = self.model
-        times = np.unique(self._row_times[self._row_times >= model.strike_time(model.means)])
-        least = float(times[min(len(times) - 1, 3)])
-        self.horizon = max(least, self._meeting_after(table, model.means, -np.inf))
+        self.horizon = self._first_horizon(table)
         weights = self.weights(self.horizon)
         fit = fit_shot(model, table, model.means, weights)
         if fit is None:  # not playable as guessed: balls in the cue's way do not count, so the speed is out of range
@@ -92,6 +95,12 @@ class StagedShot:
             fit = ShotFit(model.means, np.full(rows, 1e3), np.zeros((rows, len(model.names))))
             self.given_up = True
         return Member(model, fit, weights)
+
+    def _first_horizon(self, table: Table) -> float:
+        model = self.model
+        times = np.unique(self._row_times[self._row_times >= model.strike_time(model.means)])
+        least = float(times[min(len(times) - 1, 3)])
+        return max(least, self._meeting_after(table, model.means, -np.inf))
 
     def _meeting_after(self, table: Table, nuisances: Floats, time: float) -> float:
         """s of the data: the first meeting after a time; infinite if no sample comes after it."""
@@ -164,6 +173,10 @@ class StagedShot:
         """Count again, from the best of several starts at these parameters; the whole if the model follows it."""
         whole = self.weights(np.inf)
         best = self._best(table, before, whole, rng)
+        if not self.follows(best, whole) or self.excess_of(best, whole) > BADLY:
+            walked = self._walked(table, rng)
+            if walked is not None and walked.cost < best.cost:
+                best = walked
         if self.follows(best, whole):
             self.horizon, self.member.weights, self.member.fit = np.inf, whole, best
         else:
@@ -176,6 +189,28 @@ class StagedShot:
         worst = ShotFit(before.nuisances, residuals, before.slopes)
         return min((fit for fit in found if fit is not None), key=lambda fit: fit.cost, default=worst)
 
+    def _walked(self, table: Table, rng: np.random.Generator) -> ShotFit | None:
+        """Begun anew at these parameters, and matched meeting by meeting to its end; None where no start follows one.
+
+        Starts are drawn from what the samples before a meeting say, which is wide enough for every order after it.
+        """
+        horizon = self._first_horizon(table)
+        fit = fit_shot(self.model, table, self.model.means, self.weights(horizon))
+        for _ in range(MOST_WALKED):
+            if fit is None:
+                break
+            horizon = self._meeting_after(table, fit.nuisances, horizon)
+            weights = self.weights(horizon)
+            found = [fit_shot(self.model, table, fit.nuisances, weights)]
+            if found[0] is None or self.root_mean_square(found[0], weights) > WALKED:
+                found += [search_shot(self.model, table, fit, weights, spread, rng) for spread in WALK_SPREADS]
+            fit = min((one for one in found if one is not None), key=lambda one: one.cost, default=None)
+            if fit is None or not self.follows(fit, weights):
+                break
+            if np.isinf(horizon):
+                return fit
+        return None
+
     @property
     def counted(self) -> int:
         """Rows of samples that count."""
@@ -184,8 +219,18 @@ class StagedShot:
     @property
     def excess(self) -> float:
         """By how many of its own standard deviations the cost is above what noise alone gives."""
-        square = self.root_mean_square(self.member.fit, self.member.weights) ** 2
-        return (square - 1.0) * float(np.sqrt(self.counted / 2.0))
+        return self.excess_of(self.member.fit, self.member.weights)
+
+    def excess_of(self, fit: ShotFit, weights: Floats) -> float:
+        """The same of another fit."""
+        counted = int(np.count_nonzero(weights[: self.model.n_samples]))
+        return (self.root_mean_square(fit, weights) ** 2 - 1.0) * float(np.sqrt(counted / 2.0))
+
+    def badness(self, promised: float) -> float:
+        """Above 1 for a shot whose order of events is to be looked for; ``promised``: the fall that its slopes say."""
+        if self.is_searched:
+            return 0.0
+        return max(self.excess / BADLY, promised / CAUGHT) if self.is_whole else np.inf
 
     def judge_samples(self, table: Table) -> bool:
         """Leave out single samples far off a path that is otherwise followed, and take back those that lie on it.
@@ -208,6 +253,7 @@ class StagedShot:
             strays[:] = False
         changed = (self.outliers & (worst < NO_STRAY)) | (strays & ~self.outliers)
         self.outliers ^= changed
+        self.is_searched &= not changed.any()
         self._base[: self.model.n_samples] = ~self.outliers[self.model.sample_of_row]
         return bool(changed.any())
 
@@ -228,6 +274,7 @@ def match(
 ) -> JointFit:
     """All shots matched as far as they can be, and the parameters fitted to that."""
     joint = JointFit(table, parameters, [shot.member for shot in staged])
+    joint.hold(firmly=True)
     for number in range(MOST_ROUNDS):
         waiting = [shot for shot in staged if not shot.is_whole and not shot.given_up]
         if not waiting:
@@ -240,44 +287,46 @@ def match(
         for shot in waiting:
             shot.judge(joint.table, rng)
     observer("all shots together", 0.8)
-    for shot in staged:
-        shot.settle(joint.table)
-    joint.descend(FINE_STEPS)
-    joint.solve(FINE_EVALUATIONS, FINE)
-    _search_orders(joint, staged, rng, observer)
+    joint.hold(firmly=False)
+    _all_together(joint, staged, rng, observer)
     judged = [shot.judge_samples(joint.table) for shot in staged]
     if any(judged):
-        for shot in staged:
-            shot.settle(joint.table)
-        joint.descend(FINE_STEPS)
-        joint.solve(FINE_EVALUATIONS, FINE)
-        _search_orders(joint, staged, rng, observer)
+        _all_together(joint, staged, rng, observer)
+    joint.solve(FINE_EVALUATIONS, FINE)
     return joint
 
 
+def _all_together(joint: JointFit, staged: list[StagedShot], rng: np.random.Generator, observer: Observer) -> None:
+    """All shots with full weight, and the orders of events of those that fit badly searched."""
+    for shot in staged:
+        shot.settle(joint.table)
+    joint.descend(FINE_STEPS)
+    _search_orders(joint, staged, rng, observer)
+
+
 def _search_orders(joint: JointFit, staged: list[StagedShot], rng: np.random.Generator, observer: Observer) -> None:
-    """Try other orders of events for the shots that fit worst, as long as that lowers the cost."""
+    """Try other orders of events for the shots that fit worst."""
     for number in range(MOST_RELEASES):
+        joint.take(joint.values)
         caught = _caught(joint, staged)
         observer(f"{len(caught)} shots caught between two orders of events", 0.85 + 0.05 * number)
-        if not caught or not _release(joint, caught, rng):
+        if not caught:
             break
+        _release(joint, caught, rng)
 
 
 def _caught(joint: JointFit, staged: list[StagedShot]) -> list[StagedShot]:
     """The worst of the shots that stop short, fit badly, or lie at an edge of two orders: a third of all at most."""
-    badness = [
-        np.inf if not shot.is_whole else max(shot.excess / BADLY, joint.promised(number) / CAUGHT)
-        for number, shot in enumerate(staged)
-    ]
+    badness = [shot.badness(joint.promised(number)) for number, shot in enumerate(staged)]
     worst = np.argsort(badness)[::-1][: max(1, len(staged) // 3)]
     return [staged[number] for number in worst.tolist() if badness[number] > 1.0]
 
 
-def _release(joint: JointFit, caught: list[StagedShot], rng: np.random.Generator) -> bool:
-    """Fit the parameters to the other shots alone, find these their order there, and fit all; whether that is better.
+def _release(joint: JointFit, caught: list[StagedShot], rng: np.random.Generator) -> None:
+    """Fit the parameters to the other shots alone, find these their order there, and fit all; kept if that is better.
 
-    A shot in a wrong order pulls the parameters to where it fits best; only without it is the right order better.
+    A shot in a wrong order pulls the parameters to where it fits best; only without it is the right order better. A
+    shot that this did not help is not tried again.
     """
     values, before = joint.values, (-sum(shot.counted for shot in caught), joint.cost)
     kept = [(shot, shot.horizon, shot.member.fit, shot.member.weights) for shot in caught]
@@ -289,12 +338,12 @@ def _release(joint: JointFit, caught: list[StagedShot], rng: np.random.Generator
     for shot, _, fit, weights in kept:
         shot.look_again(joint.table, fit, weights, rng)
     joint.descend(FINE_STEPS)
-    joint.solve(FINE_EVALUATIONS, FINE)
-    if (-sum(shot.counted for shot in caught), joint.cost) < (before[0], before[1] - CAUGHT):
-        return True
+    helped = (-sum(shot.counted for shot in caught), joint.cost) < (before[0], before[1] - CAUGHT)
     for shot, horizon, fit, weights in kept:
-        shot.horizon, shot.member.fit, shot.member.weights = horizon, fit, weights
-    for member, fit in others:
-        member.fit = fit
-    joint.take(values)
-    return False
+        shot.is_searched = not helped or (shot.is_whole and shot.member.fit.cost > fit.cost - CAUGHT)
+        if not helped:
+            shot.horizon, shot.member.fit, shot.member.weights = horizon, fit, weights
+    if not helped:
+        for member, fit in others:
+            member.fit = fit
+        joint.take(values)

@@ -52,7 +52,7 @@ def chosen(balls: dict[int, tuple[float, float]], shot: physics.Shot, call: tupl
 
 def a_turn() -> str:
     """The choice of `pooliad agent explain` in the position of the page."""
-    return chosen(TURN, physics.Shot(1.89, 20.28, 1.0, -7.5, 5.0), (6, 4), noise=2.0)
+    return chosen(TURN, physics.Shot(1.90, 20.28, 0.9, -10.7, 6.2), (6, 4), noise=2.0)
 
 
 def over_a_fence() -> str:

@@ -14,6 +14,7 @@ from physics.errors import InvalidShot, InvalidState, InvalidTable, PhysicsError
 from physics.events import BallState, Event, EventKind, Motion
 from physics.facts import FACTS_DTYPE, Facts
 from physics.generator import SeededStream
+from physics.path_batch import Paths, simulate_paths
 from physics.pockets import Jaw, Pocket
 from physics.rack import rack
 from physics.real_table import RealTable
@@ -37,6 +38,7 @@ __all__ = [
     "InvalidTable",
     "Jaw",
     "Motion",
+    "Paths",
     "PhysicsError",
     "Pocket",
     "RealTable",
@@ -56,5 +58,6 @@ __all__ = [
     "ring_contact_time",
     "simulate",
     "simulate_batch",
+    "simulate_paths",
     "squirt",
 ]

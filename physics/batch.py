@@ -97,7 +97,7 @@ def simulate_batch(
         raise ValueError(f"threads = {threads!r}: must be a positive integer")
     strokes = checked_shots(shots)
     n = len(strokes)
-    positions = _checked_states(table, states, n)
+    positions = checked_states(table, states, n)
     final, pocket = np.empty((n, N_BALLS, 2)), np.empty((n, N_BALLS), np.int8)
     facts, counted = np.empty(n, FACTS_DTYPE), NO_COUNTERS if counters is None else _checked_counters(counters, n)
     by_row = (strokes, final.reshape(n, 2 * N_BALLS), pocket, facts.view(np.int32).reshape(n, FACTS_WORDS))
@@ -168,7 +168,8 @@ def _checked_counters(counters: NDArray[np.int64], n: int) -> NDArray[np.int64]:
     return counters
 
 
-def _checked_states(table: Table, states: TableState | NDArray[np.float64], n: int) -> NDArray[np.float64]:
+def checked_states(table: Table, states: TableState | NDArray[np.float64], n: int) -> NDArray[np.float64]:
+    """Positions (n, 32), or (1, 32) of a state for all; of an array the shape alone is checked."""
     if isinstance(states, TableState):
         return checked_positions(table, states)
     positions = np.ascontiguousarray(states)

@@ -25,6 +25,9 @@ from physics.kernels.layout import K_SIZE, W_SIZE
 _LOADING = threading.Lock()
 _THREAD = threading.local()
 
+CACHE_LINE = 64
+"""Bytes."""
+
 CACHE_VARIABLE = "POOLIAD_CACHE_DIR"
 """Environment variable naming the folder for compiled kernels; else the user's cache folder."""
 
@@ -68,11 +71,18 @@ def _usable(place: Path) -> Path | None:
         return None
 
 
+def _aligned(count: int) -> NDArray[np.float64]:
+    """So many numbers from the start of a cache line on: sixteen balls' are read by lines, and none lies across two."""
+    memory = np.empty(count + CACHE_LINE // 8)
+    first = -memory.ctypes.data % CACHE_LINE // 8
+    return memory[first : first + count].reshape(1, count)
+
+
 def workspace() -> NDArray[np.float64]:
     """This thread's memory for the kernels to work out one shot at a time in, (1, n) float64."""
     memory: NDArray[np.float64] | None = getattr(_THREAD, "memory", None)
     if memory is None:
-        memory = _THREAD.memory = np.empty((1, W_SIZE + K_SIZE))
+        memory = _THREAD.memory = _aligned(W_SIZE + K_SIZE)
     return memory
 
 

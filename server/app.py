@@ -20,6 +20,7 @@ from server.security import keys
 from server.services.accounts.house_processes import House
 from server.services.matches.matches import abort_foreign
 from server.services.play.clock.flag import timer
+from server.services.runtime.batches import Batches
 from server.services.runtime.context import Context
 from server.services.runtime.heartbeat import Heartbeat
 from server.services.runtime.relay import Relay
@@ -70,6 +71,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.spectators = Spectators(context)
     app.state.house = House(context)
     app.state.heartbeat = Heartbeat(context)
+    app.state.batches = Batches(context)
     app.openapi = partial(openapi.document, app)  # type: ignore[method-assign]
     endpoints = tuple(route for router in ROUTERS for route in router.routes)
     app.state.endpoints = (*app.routes, *endpoints)
@@ -104,7 +106,7 @@ def _lifespan(context: Context) -> Callable[[FastAPI], AbstractAsyncContextManag
         context.kernels.straight.start()
         parts = (
             *(Relay(context), app.state.heartbeat, timer(context), retention(context)),
-            *(app.state.spectators, app.state.house),
+            *(app.state.spectators, app.state.batches, app.state.house),
         )
         async with AsyncExitStack() as stack:
             for part in parts:

@@ -20,7 +20,6 @@ import uvicorn
 
 from server.app import create_app, prepare
 from server.errors import SettingsError
-from server.http.body_gate import LONGEST_HEAD
 from server.http.connections import http_protocol
 from server.ops import logs
 from server.services.runtime.context import Context
@@ -97,6 +96,7 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
     config = uvicorn.Config(
         app,
         http=http_protocol(settings),
+        loop="uvloop",
         ws="none",
         lifespan="on",
         access_log=False,
@@ -104,7 +104,6 @@ def serve_on(server_socket: socket.socket, settings: Settings, ready: Callable[[
         server_header=False,
         proxy_headers=bool(settings.proxies),
         forwarded_allow_ips=settings.named_proxies,
-        h11_max_incomplete_event_size=LONGEST_HEAD,
         headers=[("X-Content-Type-Options", "nosniff")],
         log_level="warning",
         timeout_graceful_shutdown=max(1, round(settings.drain_seconds)),

@@ -52,7 +52,8 @@ class Settings:
     )
     database_seconds: float = setting(5.0, "a writer waits so long for an SQLite file that another process has locked")
     group_commit: bool = setting(
-        False, "on SQLite, whether strokes that arrive during a flush to the disk share the next one"
+        False,
+        "on SQLite, whether strokes and polls that arrive together are carried out in one transaction, with one flush",
     )
     registration: str = setting("open", "who may register agents: `open`, `invited`, `closed`", one_of=REGISTRATIONS)
     public_reads: bool = setting(True, "whether games, lists and records are read without a token")

@@ -13,7 +13,7 @@ from numba import types
 from physics.kernels import layout as at
 from physics.kernels import tasks
 from physics.kernels.apart import load_apart
-from physics.kernels.compiling import row
+from physics.kernels.compiling import plain
 from physics.kernels.detect.contact import contact_time
 from physics.kernels.entry import COUNTERS, FACTS, FLOAT, INTEGER, NONE, POCKETS, READ, WRITTEN, entry
 from physics.kernels.path import Path
@@ -31,10 +31,8 @@ def simulate_rows(p, work, states, shots, final, pockets, facts, trace, counters
     ``trace``: events of one shot, as many as it has room for. ``counters``: (n, N_COUNTERS) int64, filled with the work
     done (predictions, pairs past the filter, contacts solved, boundary looks), or of no rows.
     """
-    rows = trace.shape[1] // at.TRACE_WIDTH
-    for n in range(final.shape[0]):
-        s = workspace(p, work, row(facts, n), trace)
-        tasks.simulate_row(s, n, states, shots, final, pockets, facts, rows, counters)
+    s = workspace(p, work, plain(0), trace)
+    tasks.simulate_rows(s, states, shots, final, pockets, facts, trace.shape[1] // at.TRACE_WIDTH, counters)
 
 
 @entry(NONE, READ, WRITTEN, READ, READ, READ, WRITTEN)

@@ -5,7 +5,7 @@ from numba import types
 from physics.kernels import layout as at
 from physics.kernels import tasks
 from physics.kernels.apart import load_apart
-from physics.kernels.compiling import row
+from physics.kernels.compiling import plain
 from physics.kernels.detect.contact import contact_time
 from physics.kernels.detect.edges_in_air import meets_ring
 from physics.kernels.entry import COUNTERS, FACTS, FLOAT, INTEGER, NONE, POCKETS, READ, WRITTEN, entry
@@ -18,10 +18,8 @@ load_apart(RealWorkspace)
 @entry(NONE, READ, WRITTEN, READ, READ, WRITTEN, POCKETS, FACTS, WRITTEN, COUNTERS)
 def simulate_rows(p, work, states, shots, final, pockets, facts, trace, counters):
     """See ``entries``."""
-    rows = trace.shape[1] // at.REAL_TRACE_WIDTH
-    for n in range(final.shape[0]):
-        s = real_workspace(p, work, row(facts, n), trace)
-        tasks.simulate_row(s, n, states, shots, final, pockets, facts, rows, counters)
+    s = real_workspace(p, work, plain(0), trace)
+    tasks.simulate_rows(s, states, shots, final, pockets, facts, trace.shape[1] // at.REAL_TRACE_WIDTH, counters)
 
 
 @entry(NONE, READ, WRITTEN, READ, READ, READ, WRITTEN)

@@ -18,7 +18,7 @@ from physics.kernels.resolve.cloth import begin
 from physics.kernels.start import place, put_away, read_speeds, reset, restore
 from physics.kernels.strike import MILLIMETRE, lowest_elevation, obstacle, playable, read_stroke
 from physics.kernels.tolerances import TOUCH
-from physics.kernels.workspace import RealWorkspace, Workspace, by_table
+from physics.kernels.workspace import RealWorkspace, Workspace, by_table, with_facts
 
 may_lie = by_table(may_lie_inside, may_stand)
 """``may_lie(s, x, y, slack)``: whether a centre may rest at (x, y), from the table's centre."""
@@ -62,10 +62,9 @@ def collect(s, start, stride, final):
         store(final, 2 * i + 1, y if here else np.nan)
 
 
-@apart(None, (Workspace, RealWorkspace), int, READ, READ, WRITTEN, POCKETS, FACTS, int, COUNTERS)
-@kernel
+@small_kernel
 def simulate_row(s, n, states, shots, final, pockets, facts, rows, counters):
-    """Simulate shot ``n`` of ``entries.simulate_rows``; ``rows``: events the trace has room for."""
+    """Simulate shot ``n`` of ``simulate_rows``."""
     moving = int(states.shape[1] != 2 * at.LANES)
     given = row(states, n if states.shape[0] > 1 else 0)
     reset(s, rows)
@@ -77,6 +76,14 @@ def simulate_row(s, n, states, shots, final, pockets, facts, rows, counters):
     if counters.shape[0] > 0:
         for c in range(at.N_COUNTERS):
             counters[n, c] = load_integer(s.k, at.LOOKS + c)
+
+
+@apart(None, (Workspace, RealWorkspace), READ, READ, WRITTEN, POCKETS, FACTS, int, COUNTERS)
+@kernel
+def simulate_rows(s, states, shots, final, pockets, facts, rows, counters):
+    """See ``entries.simulate_rows``; ``rows``: events the trace has room for."""
+    for n in range(final.shape[0]):
+        simulate_row(with_facts(s, row(facts, n)), n, states, shots, final, pockets, facts, rows, counters)
 
 
 @kernel

@@ -83,3 +83,18 @@ def bare_real_workspace(p, memory):
     """``bare_workspace`` of a table with jaws."""
     w = row(memory, 0)
     return RealWorkspace(row(p, 0), w, integers_behind(w, at.W_SIZE), plain(0), plain(0))
+
+
+@small_kernel
+def _with_facts(s, facts):
+    return Workspace(s.p, s.w, integers_behind(s.w, at.W_SIZE), facts, s.trace)
+
+
+@small_kernel
+def _real_with_facts(s, facts):
+    return RealWorkspace(s.p, s.w, integers_behind(s.w, at.W_SIZE), facts, s.trace)
+
+
+with_facts = by_table(_with_facts, _real_with_facts)
+"""``with_facts(s, facts)``: the same workspace for another row of facts. A kernel apart gets bare addresses: from here
+on the compiler sees again that ``k`` lies behind ``w``."""

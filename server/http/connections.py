@@ -7,15 +7,14 @@ nor for answers that nobody reads, and no bound on one caller's share of the con
 """
 
 import asyncio
-import sys
 from collections import Counter
 from functools import partial
 from http import HTTPStatus
 from typing import Any, ClassVar
 
-import h11
-from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
+from uvicorn.protocols.http.httptools_impl import RequestResponseCycle
 
+from server.http.messages import OneAtATime
 from server.settings import Settings
 
 NO_SNIFFING = b"x-content-type-options: nosniff\r\n"
@@ -25,8 +24,6 @@ TOO_MANY = (
     + NO_SNIFFING
     + b"content-length: 36\r\n\r\ntoo many connections of this address"
 )
-
-HEAD_TOO_LARGE = 431
 
 WRITE = "pooliad.write"
 """The extension of a request's scope that writes part of its answer at once, if the reader has read all before it."""
@@ -61,13 +58,13 @@ class Unread:
         self._waiting.pop(connection, None)
 
 
-def http_protocol(settings: Settings) -> type[H11Protocol]:
+def http_protocol(settings: Settings) -> type[OneAtATime]:
     """uvicorn's protocol, bounded: the class, with what the connections of one server share."""
     members = {"settings": settings, "open_by_address": Counter(), "unread": Unread(settings.held_answers)}
     return type("Bounded", (_Bounded,), members)
 
 
-class _Bounded(H11Protocol):
+class _Bounded(OneAtATime):
     """A connection whose headers have a deadline and whose answers must be read, one of its address's few."""
 
     settings: ClassVar[Settings]
@@ -91,9 +88,17 @@ class _Bounded(H11Protocol):
     def data_received(self, data: bytes) -> None:
         """Bytes came: part of the headers, the rest of them, or something after them."""
         super().data_received(data)
-        if self.conn.their_state is not h11.IDLE:
+        if self.is_idle and self._deadline is None:
+            self._await_headers()
+
+    def _go_on(self) -> None:
+        """Parse what came; a head that came in part, or a body whose request is answered already, has its time."""
+        super()._go_on()
+        if self._is_refused:
+            return
+        if not self.is_idle:
             self._stop_waiting()
-        elif self._deadline is None and self.conn.trailing_data[0]:
+        elif self._deadline is None and self._came:
             self._await_headers()
 
     def connection_lost(self, exc: Exception | None) -> None:
@@ -106,37 +111,26 @@ class _Bounded(H11Protocol):
                 del self.open_by_address[self._address]
         super().connection_lost(exc)
 
-    def send_400_response(self, msg: str) -> None:
-        """Answer what cannot be read as a request with 400, a head that is too large with 431, and close."""
-        error, text = sys.exc_info()[1], msg.encode()
-        too_large = isinstance(error, h11.RemoteProtocolError) and error.error_status_hint == HEAD_TOO_LARGE
-        headers = [
-            *self.server_state.default_headers,
-            (b"content-type", b"text/plain; charset=utf-8"),
-            (b"content-length", str(len(text)).encode()),
-            (b"connection", b"close"),
-        ]
-        status = HTTPStatus(HEAD_TOO_LARGE if too_large else 400)
-        head = h11.Response(status_code=status.value, headers=headers, reason=status.phrase.encode())
-        for event in (head, h11.Data(data=text), h11.EndOfMessage()):
-            self.transport.write(self.conn.send(event))
-        self.transport.close()
+    def _refuse(self, status: HTTPStatus) -> None:
+        """Refuse what came; the sender has time to read that and to hang up."""
+        super()._refuse(status)
+        self._stop_waiting()
+        self._await_headers()
 
-    def handle_events(self) -> None:
+    def on_headers_complete(self) -> None:
         """Requests that came are begun on the loop's next round: until then their scope may be added to."""
-        super().handle_events()
-        if self.scope is not None:
-            extensions: Any = self.scope.setdefault("extensions", {})
-            extensions.setdefault(WRITE, partial(self._write_part, self.cycle))
-            extensions.setdefault(GONE, partial(getattr, self.cycle, "disconnected"))
+        super().on_headers_complete()
+        extensions: Any = self.scope.setdefault("extensions", {})
+        extensions[WRITE] = partial(self._write_part, self.cycle)
+        extensions[GONE] = partial(getattr, self.cycle, "disconnected")
 
     def _write_part(self, cycle: RequestResponseCycle, part: bytes) -> bool:
         """Write part of an answer of unknown length, framed as RFC 9112, 7.1 has it; False when it has to wait.
 
-        Between its parts such an answer leaves no trace in h11 but that there are more to come.
+        Between its parts such an answer leaves no trace in the framework but that there are more to come.
         """
-        is_open = self.cycle is cycle and not cycle.disconnected and self.conn.our_state is h11.SEND_BODY
-        if not is_open or self.conn.their_http_version != b"1.1" or self.transport.get_write_buffer_size():
+        is_open = self.cycle is cycle and not cycle.disconnected and not cycle.response_complete
+        if not is_open or not cycle.chunked_encoding or self.transport.get_write_buffer_size():
             return False
         self.transport.write(b"%x\r\n%b\r\n" % (len(part), part))
         return True
@@ -180,6 +174,6 @@ class _Bounded(H11Protocol):
             self._deadline = None
 
     def _give_up(self) -> None:
-        if not self.transport.is_closing():
+        if not self.transport.is_closing() and not self._is_refused:
             self.transport.write(TIMED_OUT)
-            self.transport.close()
+        self.transport.close()

@@ -95,9 +95,11 @@ async def shoot(game_id: str, request: Request) -> Response:
     whatever it prefers then.
     """
     context = context_of(request)
+    move = move_of(request)
+    ordinary = partial(request.app.state.batches.carry_out, partial(strokes.attempt_of, context, game_id, move))
+    long = partial(strokes.shoot, context, game_id, move)
     with in_hand(game_id, request):
-        play = partial(strokes.shoot, context, game_id, move_of(request))
-        return respond(await context.long_strokes.play(game_id, play))
+        return respond(await context.long_strokes.play(game_id, ordinary, long))
 
 
 async def _shoot(request: Request) -> Response:

@@ -32,7 +32,7 @@ async def next_message(
     """`turn` (until it is played), `game_over` or `match_over` (once each); 204 when there is none."""
     context = context_of(request)
     seconds = partial(_seconds, wait, context.settings.longest_wait)
-    message = await poll(context, sender_of(request), seconds, partial(is_gone, request))
+    message = await poll(context, request.app.state.batches, sender_of(request), seconds, partial(is_gone, request))
     return Response(status_code=204) if message is None else Response(message, media_type="application/json")
 
 

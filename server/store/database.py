@@ -5,9 +5,10 @@ different matches go on at once, and whoever changes a match locks its row first
 """
 
 import contextlib
+import contextvars
 import secrets
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from typing import Final, TypeVar
 
@@ -80,6 +81,20 @@ class Database:
             return self._group.carry_out(work)
         with self.writing() as connection:
             return work(connection)
+
+    @property
+    def shares_commits(self) -> bool:
+        """Whether `carry_out_together` is to be had."""
+        return self._group is not None
+
+    def carry_out_together(
+        self, works: Sequence[tuple[Callable[[Connection], T], contextvars.Context]]
+    ) -> list[Callable[[], T]]:
+        """`carry_out` for what one thread has collected, each in its own context. What is returned tells what became of
+        each: its result, or what it raised. Only with `group_commit`, on SQLite.
+        """
+        assert self._group is not None
+        return self._group.carry_out_together(works)
 
     @contextmanager
     def _transaction(self) -> Iterator[Connection]:

@@ -10,7 +10,7 @@ import contextvars
 import logging
 import threading
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from typing import Any, Final, TypeVar
 
@@ -61,6 +61,17 @@ class GroupCommit:
         result: T = member.result()
         return result
 
+    def carry_out_together(self, works: Sequence[tuple[Work, contextvars.Context]]) -> list[Callable[[], Any]]:
+        """The same for work that one thread has collected, each in its own context: what tells what became of each."""
+        members = [_Member(work, context) for work, context in works]
+        try:
+            with self._place:
+                for start in range(0, len(members), MOST):
+                    self._write(members[start : start + MOST])
+        except BaseException as error:
+            _fail(members, error)
+        return [member.result for member in members]
+
     def _lead(self) -> None:
         """Write for all who wait, then let the next one of those who came meanwhile lead."""
         members: list[_Member] = []
@@ -70,8 +81,7 @@ class GroupCommit:
                 self._write(members)
         except BaseException as error:
             members = members or self._taken()
-            for member in members:
-                member.fail(outages.unavailable() if isinstance(error, Unavailable) else error)
+            _fail(members, error)
         finally:
             self._hand_on()
             for member in members:
@@ -102,12 +112,23 @@ class GroupCommit:
             member.carry_out_alone(self._transaction)
 
 
-class _Member:
-    """One of those who wait: its writes, and what became of them."""
+def _fail(members: "list[_Member]", error: BaseException) -> None:
+    """Nothing of what they wrote is known to be stored."""
+    for member in members:
+        member.fail(outages.unavailable() if isinstance(error, Unavailable) else error)
 
-    def __init__(self, work: Work) -> None:
+
+class _Member:
+    """One of those who wait: its writes, and what became of them.
+
+    Args:
+        work: what it writes.
+        context: its own, so that its log lines name its own request; None: the caller's.
+    """
+
+    def __init__(self, work: Work, context: contextvars.Context | None = None) -> None:
         self._work = work
-        self._context = contextvars.copy_context()  # its log lines name its own request
+        self._context = contextvars.copy_context() if context is None else context
         self._woken = threading.Event()
         self._leads = False
         self._result: Any = None

@@ -1,8 +1,10 @@
 """A bounded share of the measurements of `search`: pairs, their pooling, the studies behind its constants."""
 
+import numpy as np
 import pytest
 
-from benchmarks import recording, search, search_breaks, search_habits
+from benchmarks import recording, search, search_breaks, search_habits, search_odds
+from client.agents.search.odds import Odds
 from physics import Table
 from referee import EightBall
 from tournament.statistics import score_of_cells
@@ -99,3 +101,14 @@ def test_versions_that_play_differently_are_kept_apart(monkeypatch):
     assert [(row["part"], row["agents"], row["games"], row["elo"]) for row in tables["parts"]] == [
         ("ways", "v1", 4, 0.0)
     ]
+
+
+def test_odds_that_games_bear_out_are_found_in_them():
+    """Games won with known odds; Odds(0, 1) is the race itself."""
+    chance = np.random.default_rng(1)
+    race = chance.uniform(0.02, 0.98, 20_000)
+    assert Odds(0.0, 1.0).of(race) == pytest.approx(race)
+    true = Odds(-0.3, 0.6)
+    found = search_odds.fitted(race, (chance.random(len(race)) < true.of(race)).astype(float))
+    assert found.shift == pytest.approx(-0.3, abs=0.05)
+    assert found.scale == pytest.approx(0.6, abs=0.05)

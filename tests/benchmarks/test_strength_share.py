@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import physics
-from benchmarks import choices, strength
+from benchmarks import choices, contest, recording, strength
 from benchmarks.lockstep import MatchUp, Played, Turn, play
 from client.agents.search.evaluate import Question, Responder
 from client.agents.search.sight import Sight
@@ -77,6 +77,16 @@ def test_the_score_is_of_pairs():
     assert (row["pairs"], row["score"], row["cells_4"], row["cells_1"]) == (2, 0.625, 1, 1)
     assert (row["lost"], row["lost_winnable"]) == (1, 0)  # it never came to the table
     assert (row["break_and_run"], row["opponent_lost"]) == (0.5, 2)
+    assert (row["breaks_kept"], row["breaks_won"], row["opponent_breaks_won"]) == (0.0, 0.5, 0.0)
+
+
+def test_a_break_is_kept_when_its_player_shoots_next():
+    """The first called stroke of a game tells, unless the opponent decided something before it."""
+    games = play(MatchUp(("search:shots=60",) * 2, noise=5.0, pairs=4, seed=4))
+    assert {game.kept for game in games} == {True, False}
+    for game in games:
+        assert game.kept <= (game.turns[0].seat == game.breaker)
+        assert game.run_out <= game.kept
 
 
 def test_ends_of_turns_have_causes():
@@ -112,3 +122,21 @@ def test_choices_are_judged_in_the_same_positions():
     assert rows[0]["gain"] == 0.0
     assert all(0.0 < row["worth"] < 1.0 and row["positions"] == 3 for row in rows)
     assert rows == list(choices.rows("olympiad", 2.0, players, 3, 40))
+
+
+def test_lines_are_pooled_row_by_row(monkeypatch):
+    def line(name, score):
+        return {"id": name, "tables": {"matches": [{"score": score}], "ends": [], "reckoned": []}}
+
+    monkeypatch.setattr(recording, "lines", lambda _: [line("a", 0.5), line("b", 0.6), line("c", 0.7)])
+    assert strength.pooled(["c", "a"])["matches"] == [{"score": 0.7, "line": "c"}, {"score": 0.5, "line": "a"}]
+    with pytest.raises(ValueError, match="line = 'd': must be the id of a line"):
+        strength.pooled(["c", "d"])
+
+
+def test_a_contest_counts_runs_and_pairs():
+    games = [played(0, 0, 0), played(0, 1, 0), played(1, 0, 1), played(1, 1, 1)]
+    assert contest.points(games) == Counter({4: 1, 0: 1})
+    assert contest.runs(games, 0, "run")["run"] == 0.5
+    row = contest.runs(games, 1, "run")
+    assert (row["run"], row["run_low_95"] < 0.5 < row["run_high_95"]) == (0.5, True)

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.require import ROOT
 
 from calibration import ErrorModel
 from calibration.synthetic import seen
@@ -77,10 +76,6 @@ def test_what_is_wrong_is_one_sentence(folder, words, said):
     assert refused.returncode == 2
     assert said in refused.stderr
     assert "Traceback" not in refused.stderr
-
-
-def test_the_example_says_that_it_is_synthetic():
-    assert (ROOT / "examples" / "calibration" / "paths.csv").read_text().startswith("# Synthetic: ")
 
 
 def test_a_players_noise_is_written_as_far_as_the_data_tell_it(tmp_path):

@@ -7,13 +7,15 @@ import pytest
 
 import physics
 from client.agents.search import banks, polish
+from client.agents.search.breaks import worth_of_breaking
 from client.agents.search.budget import Budget, Pace
 from client.agents.search.evaluate import Evaluator, Responder, answered
 from client.agents.search.finalists import Finalists
 from client.agents.search.jumps import ELEVATIONS, leaps
+from client.agents.search.odds import odds
 from client.agents.search.refine import falls
 from client.agents.search.shots import Shots, Tables
-from client.agents.search.sight import Sight
+from client.agents.search.sight import Sight, Valuation
 from client.agents.search.sweep import sweep
 from client.agents.search.value import Values
 from referee.rules.batch_rulings import target_balls
@@ -111,3 +113,42 @@ def test_rounds_spend_no_more_than_they_are_given():
         assert all(copies <= polish.MOST_COPIES for _, copies in given)
     assert len(given) == polish.ROUNDS
     assert math.prod(spread for spread, _ in given) < 1e-6
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.5, 1.0, 2.0, 3.7, 5.0])
+@pytest.mark.parametrize("table", [OLYMPIAD, NINE], ids=["olympiad", "nine_foot"])
+def test_what_games_bear_out_keeps_the_order_of_chances(table, noise):
+    """Else a better table could count for less; and certainties stay chances."""
+    race = np.linspace(0.0, 1.0, 101)
+    borne_out = odds(noise, table.has_jaws).of(race)
+    assert (np.diff(borne_out[1:-1]) > 0.0).all()
+    assert (np.diff(borne_out) >= 0.0).all()
+    assert ((borne_out > 0.0) & (borne_out < 1.0)).all()
+
+
+def test_a_table_is_worth_what_games_bear_out():
+    """To its shooter and to the opponent alike; a stroke that decides the game is certain all the same."""
+    evaluator, responder, tables = at(OLYMPIAD, BEHIND, noise=5.0)
+    values, nowhere = evaluator.values, np.zeros(1, bool)
+    race = values.raced(tables, tables.positions, nowhere, Valuation())
+    assert values.to_shoot(tables.positions, tables.group, nowhere) == pytest.approx(odds(5.0, False).of(race))
+    assert abs(odds(5.0, False).of(race)[0] - race[0]) > 0.01
+    nothing = physics.Shot(0.2, 270.0, 0.6)  # the cue ball touches nothing: a foul
+    missed = Shots(tables, np.zeros(1, np.int64), np.array([[nothing.v, nothing.phi, nothing.theta, 0.0, 0.0]]),
+                   np.array([-1]), np.array([-1]), np.zeros(1))  # fmt: skip
+    worth = answered(evaluator.as_meant(missed), responder)
+    assert 0.0 < worth[0] < 0.5
+    _, responder, alone = at(OLYMPIAD, {0: (0.3, 0.3), 8: (0.1, 0.1)}, noise=5.0)
+    pots = values.sight.pots(alone, 1)
+    strokes = np.array([[1.5, pots.phi[0, 0], 0.0, 0.0, 0.0]])
+    made = values.sight.raised(Shots(alone, np.zeros(1, np.int64), strokes, pots.ball[0], pots.pocket[0], np.zeros(1)))
+    assert answered(evaluator.as_meant(made), responder)[0] == 1.0
+
+
+@pytest.mark.parametrize("table", [OLYMPIAD, NINE], ids=["olympiad", "nine_foot"])
+def test_a_new_rack_is_worth_less_the_more_is_missed(table):
+    """Between measured levels too; who breaks is hardly ahead where every other ball is missed."""
+    worths = [worth_of_breaking(table, noise) for noise in (0.0, 1.0, 1.5, 2.0, 3.5, 5.0)]
+    assert all(0.4 < worth < 0.75 for worth in worths)
+    if not table.has_jaws:
+        assert worths == sorted(worths, reverse=True)

@@ -76,7 +76,8 @@ import importlib.util, pathlib, sys
 import physics, referee, protocol, client, client.geometry
 from client import Agent, AsyncPooliad, Pooliad, play, run_agent
 from client.agents.greedy import GreedyAgent
-print([name for name in ("fastapi", "starlette", "uvicorn", "sqlalchemy", "alembic") if importlib.util.find_spec(name)])
+server = ("fastapi", "starlette", "uvicorn", "httptools", "uvloop", "sqlalchemy", "alembic")
+print([name for name in server if importlib.util.find_spec(name)])
 print({pathlib.Path(module.__file__).is_relative_to(sys.prefix) for module in (physics, referee, client)})
 """
 PLAY = "import client; print(client.play('random', 'random', seed=3).games[0].outcome.reason)"

@@ -41,6 +41,13 @@ def until_closed(connection):
     return said
 
 
+def exchanged(server, request):
+    """A connection's whole answer to these bytes."""
+    with connected(server) as connection:
+        connection.sendall(request)
+        return until_closed(connection)
+
+
 def test_a_compressed_body_is_not_unpacked(at_break):
     """A bomb of a gigabyte has a megabyte packed; here it is refused for being packed at all (RFC 9110, 15.5.16)."""
     mover, view = at_break
@@ -124,32 +131,99 @@ HIDDEN = b"GET /v1/agents HTTP/1.1\r\nHost: x\r\n\r\n"
 """A request inside what another length makes the body of the one before."""
 
 
-@pytest.mark.parametrize(
-    "request_line",
-    [
-        b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n"
-        + HIDDEN,
-        b"GET /healthz HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\nContent-Length: 5\r\n\r\n0\r\n\r\n"
-        + HIDDEN,
-        b"GET /healthz HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nContent-Length: 6\r\n\r\nhello",
-        b"GET /healthz HTTP/1.1\r\nHost: x\r\nX: " + b"a" * 200_000 + b"\r\n\r\n",
-        b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
-        b"POST /v1/agents HTTP/1.1\r\nHost: x\r\nContent-Length: -1\r\n\r\n",
-        b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n",
-    ],
-    ids=["both lengths", "both lengths, no body", "two lengths", "long header", "no chunk", "negative", "TLS"],
-)
-def test_requests_that_are_none_are_refused(server, request_line):
-    """RFC 9112, 6.3: of a message with two lengths, or one that is none, nobody knows where it ends."""
-    with connected(server) as connection:
-        connection.sendall(request_line)
-        try:
-            said = until_closed(connection)
-        except ConnectionResetError:
-            said = b"HTTP/1.1 400 "
+AGENTS = b"POST /v1/agents HTTP/1.1\r\nHost: x\r\n"
+HEALTH = b"GET /healthz HTTP/1.1\r\nHost: x\r\n"
+CHUNKED = b"Transfer-Encoding: chunked\r\n"
+NOTHING_MORE = b"0\r\n\r\n"
+NO_REQUESTS = {
+    "both lengths": AGENTS + b"Content-Length: 5\r\n" + CHUNKED + b"\r\n" + NOTHING_MORE + HIDDEN,
+    "both lengths, no body": HEALTH + CHUNKED + b"Content-Length: 5\r\n\r\n" + NOTHING_MORE + HIDDEN,
+    "two lengths": HEALTH + b"Content-Length: 5\r\nContent-Length: 6\r\n\r\nhello",
+    "no chunk": AGENTS + CHUNKED + b"\r\nzz\r\n",
+    "a chunk's size in two ways": AGENTS + CHUNKED + b"\r\n1 \r\nx\r\n" + NOTHING_MORE + HIDDEN,
+    "chunks without CR": AGENTS + CHUNKED + b"\r\n1\nx\n0\n\n" + HIDDEN,
+    "coded, then in chunks": AGENTS + b"Transfer-Encoding: gzip, chunked\r\n\r\n" + NOTHING_MORE + HIDDEN,
+    "in chunks, then coded": AGENTS + b"Transfer-Encoding: chunked, gzip\r\n\r\n" + NOTHING_MORE + HIDDEN,
+    "in chunks, nearly": AGENTS + b"Transfer-Encoding: xchunked\r\n\r\n" + NOTHING_MORE + HIDDEN,
+    "a length before its colon": AGENTS + b"Content-Length : 5\r\n\r\nhello",
+    "a folded field": HEALTH + b"X: a\r\n Content-Length: 5\r\n\r\n" + HIDDEN,
+    "lines without CR": b"GET /healthz HTTP/1.1\nHost: x\n\n" + HIDDEN,
+    "an end without CR": b"GET /healthz HTTP/1.1\r\nHost: x\r\n\n" + HIDDEN,
+    "CR in a field": HEALTH + b"X: a\rContent-Length: 37\r\n\r\n" + HIDDEN,
+    "NUL in a field": HEALTH + b"X: a\0b\r\n\r\n" + HIDDEN,
+    "negative": AGENTS + b"Content-Length: -1\r\n\r\n",
+    "no host": b"GET /healthz HTTP/1.1\r\n\r\n" + HIDDEN,
+    "two hosts": HEALTH + b"Host: y\r\n\r\n" + HIDDEN,
+    "HTTP/0.9": b"GET /healthz\r\n\r\n" + HIDDEN,
+    "HTTP/2.0": b"GET /healthz HTTP/2.0\r\nHost: x\r\n\r\n" + HIDDEN,
+    "a tunnel": b"CONNECT x:1 HTTP/1.1\r\nHost: x\r\n\r\n" + HIDDEN,
+    "a tunnel to a path": b"CONNECT /healthz HTTP/1.1\r\nHost: x\r\n\r\n" + HIDDEN,
+    "TLS": b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03",
+}
+
+
+@pytest.mark.parametrize("sent", NO_REQUESTS.values(), ids=NO_REQUESTS)
+def test_requests_that_are_none_are_refused(server, sent):
+    """RFC 9112, 2.2, 3.2, 5.1 and 6.3: of what may be read in two ways, nobody knows where it ends."""
+    said = exchanged(server, sent)
     assert said.startswith(b"HTTP/1.1 400 "), said
     assert said.count(b"HTTP/1.1 ") == 1
     assert server.request("GET", "/healthz").status_code == 200
+
+
+@pytest.mark.parametrize("field", [b"Upgrade: h2c", b"upgrade: websocket", b"UPGRADE:pool"])
+@pytest.mark.parametrize("pause", [False, True], ids=["in one breath", "the body later"])
+def test_nothing_hides_behind_a_wish_for_another_protocol(server, field, pause):
+    """The parser would skip the body, and take it for the next request; RFC 9110, 7.8 has the wish ignored."""
+    fields = b"Content-Type: application/json\r\nConnection: Upgrade\r\n%b\r\n" % field
+    head = AGENTS + fields + b"Content-Length: %d\r\n\r\n" % len(HIDDEN)
+    with connected(server) as connection:
+        connection.sendall(head)
+        if pause:
+            time.sleep(0.2)
+        connection.sendall(HIDDEN + HEALTH + b"Connection: close\r\n\r\n")
+        first, second = until_closed(connection).split(b"HTTP/1.1 ")[1:]
+    assert first.startswith(b"400 ")
+    assert b"not_json" in first
+    assert second.startswith(b"200 ")
+
+
+def test_fields_behind_a_body_are_no_fields_of_the_request(new_player):
+    """RFC 9110, 6.5.1: what was checked before the body came is not changed after it."""
+    player = new_player()
+    token = b"Authorization: Bearer " + player.token.encode() + b"\r\n"
+    body = b"2\r\n{}\r\n0\r\n"
+    head = b"POST /v1/matches HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Type: application/json\r\n" + CHUNKED
+    assert exchanged(player.server, head + b"\r\n" + body + token + b"\r\n").startswith(b"HTTP/1.1 401 ")
+    said = exchanged(player.server, head + token + b"\r\n" + body + b"X: y\r\n\r\n")
+    assert said.startswith((b"HTTP/1.1 400 ", b"HTTP/1.1 403 ", b"HTTP/1.1 422 "))
+
+
+def test_fields_behind_a_body_without_end_are_cut_off(server):
+    said = exchanged(server, AGENTS + CHUNKED + b"\r\n0\r\n" + b"X: y\r\n" * 3000)
+    assert said.startswith(b"HTTP/1.1 400 "), said[:200]
+
+
+def test_nonsense_behind_a_request_waits_for_its_answer(server):
+    """Else the refusal would be taken for the answer of the request before it."""
+    said = exchanged(server, HEALTH + b"\r\n" + HEALTH + b"Content-Length: x\r\n\r\n")
+    first, second = said.split(b"HTTP/1.1 ")[1:]
+    assert first.startswith(b"200 ")
+    assert second.startswith(b"400 ")
+
+
+def test_who_hangs_up_behind_requests_of_his_is_missed(own_server, table_at):
+    """A stream ends with its reader, though a request waits behind it; else streams without readers would add up."""
+    server = own_server(POOLIAD_STREAMS="1", POOLIAD_STREAM_KEEPALIVE="0.2")
+    path = f"/v1/games/{table_at(server).game}/stream"
+    with connected(server) as connection:
+        connection.sendall(f"GET {path} HTTP/1.1\r\nHost: x\r\n\r\n".encode() + (HEALTH + b"\r\n") * 20_000)
+        assert connection.recv(4096).startswith(b"HTTP/1.1 200 ")
+        assert server.request("GET", path).status_code == 429
+    end = time.monotonic() + 30
+    while server.request("GET", "/v1/games/game_none/stream").status_code == 429:
+        assert time.monotonic() < end
+        time.sleep(0.05)
 
 
 def test_chunks_without_end_are_cut_off(own_server):
@@ -198,13 +272,6 @@ def test_ten_thousand_connections_from_one_address(own_server, table_at):
     table.play(2)
 
 
-def exchanged(server, request):
-    """A connection's whole answer to these bytes."""
-    with connected(server) as connection:
-        connection.sendall(request)
-        return until_closed(connection)
-
-
 @pytest.mark.parametrize("pieces", [1, 40])
 def test_the_head_of_a_request_is_bounded(server, pieces):
     """Request line and fields together, 16 KiB, in one packet or many (RFC 6585, 5)."""
@@ -213,16 +280,14 @@ def test_the_head_of_a_request_is_bounded(server, pieces):
     with connected(server) as connection:
         head = whole + fields + b"\r\n"
         size = -(-len(head) // pieces)
-        try:
-            for start in range(0, len(head), size):
-                connection.sendall(head[start : start + size])
-        except OSError:
-            pass  # it was answered already
+        for start in range(0, len(head), size):
+            connection.sendall(head[start : start + size])
         said = until_closed(connection)
     assert said.startswith(b"HTTP/1.1 431 "), said[:200]
     assert exchanged(server, whole + fields[: 500 * 31] + b"\r\n").startswith(b"HTTP/1.1 200 "), "15.5 KiB"
     long_line = b"GET /healthz?%s HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
     assert exchanged(server, long_line % (b"a" * 17_000)).startswith(b"HTTP/1.1 431 ")
+    assert exchanged(server, HEALTH + b"X: " + b"a" * 200_000 + b"\r\n\r\n").startswith(b"HTTP/1.1 431 ")
 
 
 @pytest.mark.parametrize(

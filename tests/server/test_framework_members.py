@@ -1,4 +1,4 @@
-"""What `server.http.connections` and `server.serve` use of uvicorn and h11 beyond their documents (docs/security.md).
+"""What `server.http` and `server.serve` use of uvicorn and httptools beyond their documents (docs/security.md).
 
 A release that renames one of these would take a limit away without an error: these fail first.
 """
@@ -7,10 +7,11 @@ import inspect
 from types import SimpleNamespace
 from typing import Any
 
-import h11
+import httptools
 import pytest
 import uvicorn
-from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.http.flow_control import FlowControl
+from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol, RequestResponseCycle
 from uvicorn.server import ServerState
 
 from server.http.connections import http_protocol
@@ -18,9 +19,10 @@ from server.serve import _HintingServer
 from server.settings import Settings
 
 BOUNDED = http_protocol(Settings())
+CONNECTION = ("connection_made", "data_received", "connection_lost", "pause_writing", "resume_writing")
+PARSED = ("on_message_begin", "on_header", "on_headers_complete", "on_body", "on_message_complete")
 OVERRIDDEN = [
-    *((BOUNDED, H11Protocol, name) for name in ("connection_made", "data_received", "connection_lost")),
-    *((BOUNDED, H11Protocol, name) for name in ("send_400_response", "pause_writing", "resume_writing")),
+    *((BOUNDED, HttpToolsProtocol, name) for name in (*CONNECTION, *PARSED, "on_response_complete")),
     *((_HintingServer, uvicorn.Server, name) for name in ("startup", "capture_signals")),
 ]
 
@@ -37,7 +39,7 @@ async def no_app(scope, receive, send):
 
 
 def test_a_connection_has_what_the_limits_read():
-    config = uvicorn.Config(no_app, h11_max_incomplete_event_size=1024, lifespan="off")
+    config = uvicorn.Config(no_app, lifespan="off")
     config.load()
     loop: Any = SimpleNamespace()
     state = ServerState()
@@ -45,16 +47,44 @@ def test_a_connection_has_what_the_limits_read():
     assert protocol.loop is loop
     assert protocol.server_state is state
     assert isinstance(state.default_headers, list)
-    assert protocol.conn.their_state is h11.IDLE
-    assert protocol.conn.trailing_data == (b"", False)
-    protocol.conn.receive_data(b"GET / HT")
-    assert protocol.conn.next_event() is h11.NEED_DATA
-    assert protocol.conn.trailing_data[0] == b"GET / HT"
+    assert protocol.cycle is None
+    assert isinstance(protocol.parser, httptools.HttpRequestParser)
+    assert callable(protocol._unset_keepalive_if_required)
+    assert {"pause_reading", "resume_reading"} <= set(dir(FlowControl))
+    assert STATUS_LINE[431].startswith(b"HTTP/1.1 431 ")
 
 
-def test_a_head_that_is_too_large_is_named_by_its_status():
-    connection = h11.Connection(h11.SERVER, max_incomplete_event_size=16)
-    connection.receive_data(b"GET / HTTP/1.1\r\n" + b"a" * 32)
-    with pytest.raises(h11.RemoteProtocolError) as refused:
-        connection.next_event()
-    assert refused.value.error_status_hint == 431
+def test_an_answer_has_what_the_limits_read():
+    cycle: Any = RequestResponseCycle(**dict.fromkeys(inspect.signature(RequestResponseCycle).parameters, None))
+    names = ("response_started", "response_complete", "disconnected", "chunked_encoding", "message_event")
+    assert all(hasattr(cycle, name) for name in names)
+
+
+class Heard:
+    """What a parser tells, in its order."""
+
+    def __init__(self) -> None:
+        self.told: list[str] = []
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("on_"):
+            return lambda *values: self.told.append(name)
+        raise AttributeError(name)
+
+
+def test_the_parser_tells_the_end_of_a_head_and_of_a_body_with_their_last_byte():
+    heard = Heard()
+    parser = httptools.HttpRequestParser(heard)
+    parser.feed_data(b"POST / HTTP/1.1\r\nContent-Length: 1\r\n\r\n")
+    assert heard.told[-1] == "on_headers_complete"
+    parser.feed_data(b"x")
+    assert heard.told[-2:] == ["on_body", "on_message_complete"]
+
+
+def test_what_a_callback_raises_is_an_error_of_the_parser():
+    def raising(*values: Any) -> None:
+        raise ValueError
+
+    parser = httptools.HttpRequestParser(SimpleNamespace(on_message_begin=raising))
+    with pytest.raises(httptools.HttpParserError):
+        parser.feed_data(b"GET / HTTP/1.1\r\n")

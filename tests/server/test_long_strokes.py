@@ -9,6 +9,7 @@ import concurrent.futures
 import itertools
 import threading
 import time
+from functools import partial
 
 import pytest
 
@@ -60,10 +61,19 @@ class Work:
         return len(self.spans)
 
 
+def ways(work):
+    """How a stroke is played as an ordinary one, and as a long one."""
+
+    async def ordinary():
+        return work(False)
+
+    return ordinary, partial(work, True)
+
+
 def test_long_strokes_are_played_one_at_a_time_with_rests_between_them():
     async def many():
         lane, work = LongStrokes(), Work(0.02)
-        await asyncio.gather(*(lane.play(f"game {number}", work) for number in range(6)))
+        await asyncio.gather(*(lane.play(f"game {number}", *ways(work)) for number in range(6)))
         return work
 
     work = asyncio.run(many())
@@ -86,10 +96,10 @@ def test_ordinary_strokes_wait_for_no_long_one_and_long_ones_keep_no_thread():
             work.started.set()
             blocked.wait()
 
-        waiting = [asyncio.create_task(lane.play("game", first))]
+        waiting = [asyncio.create_task(lane.play("game", *ways(first)))]
         await asyncio.to_thread(work.started.wait)
-        waiting += [asyncio.create_task(lane.play(f"game {number}", work)) for number in range(100)]
-        answers = [await lane.play(f"other {number}", lambda may_be_long: "played") for number in range(50)]
+        waiting += [asyncio.create_task(lane.play(f"game {number}", *ways(work))) for number in range(100)]
+        answers = [await lane.play(f"other {number}", *ways(lambda may_be_long: "played")) for number in range(50)]
         assert not any(task.done() for task in waiting)
         for task in waiting[1:]:
             task.cancel()
@@ -116,12 +126,12 @@ def test_a_game_waits_for_its_long_stroke_so_that_nobody_plays_another_one_inste
             order.append("long")
 
         async def other():
-            await lane.play("game", lambda may_be_long: order.append("other"))
+            await lane.play("game", *ways(lambda may_be_long: order.append("other")))
 
-        first = asyncio.create_task(lane.play("game", long))
+        first = asyncio.create_task(lane.play("game", *ways(long)))
         await asyncio.to_thread(started.wait)
         second = asyncio.create_task(other())
-        await lane.play("another game", lambda may_be_long: order.append("elsewhere"))
+        await lane.play("another game", *ways(lambda may_be_long: order.append("elsewhere")))
         going.set()
         await asyncio.gather(first, second)
         return order
@@ -137,8 +147,8 @@ def test_a_fault_in_a_long_stroke_lets_the_next_one_play():
             raise ValueError("a fault") if may_be_long else IsLong
 
         with pytest.raises(ValueError, match="a fault"):
-            await lane.play("game", fails)
-        return await asyncio.wait_for(lane.play("game", lambda may_be_long: "played"), 60)
+            await lane.play("game", *ways(fails))
+        return await asyncio.wait_for(lane.play("game", *ways(lambda may_be_long: "played")), 60)
 
     assert asyncio.run(story()) == "played"
 

@@ -7,11 +7,11 @@ learn what its noise is (docs/security.md).
 import json
 
 import pytest
-from support.server_time import SECOND, Stage
+from support.server_time import SECOND, Stage, next_message
 
 from server.errors import BudgetSpent
 from server.security import keys
-from server.services.play import budget, history, strokes, turns
+from server.services.play import budget, history, strokes
 from server.services.play.clock import ledger
 from server.services.play.clock.flag import flag
 
@@ -69,7 +69,7 @@ def test_the_answer_and_the_record_have_what_was_counted_meanwhile(stage):
 def test_a_turn_delivered_meanwhile_is_still_one_stroke(stage):
     """Two workers of one agent: one fetches the turn that the other is playing, which moves the clock."""
     seats = stage.game("ann", "bob")
-    reached = stage.meanwhile("shot-simulated", lambda: turns.next_message(stage.context, seats.mover))
+    reached = stage.meanwhile("shot-simulated", lambda: next_message(stage.context, seats.mover))
     seats.shoot(BREAK)
     assert reached.count("shot-simulated") == 2
     assert played(stage, seats) == 1

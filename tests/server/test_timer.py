@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from support.server_time import SECOND, StoppedTime
+from support.server_time import SECOND, StoppedTime, next_message
 
 from protocol import AgentRequest
 from server.errors import OutOfTime
@@ -11,7 +11,7 @@ from server.http.commands import Command
 from server.security.callers import Caller
 from server.services.accounts import agents
 from server.services.matches import matches
-from server.services.play import games, strokes, turns
+from server.services.play import games, strokes
 from server.services.play.clock.flag import flag
 from server.services.runtime.context import Context
 from server.settings import Settings
@@ -36,7 +36,7 @@ def unfetched(context):
 @pytest.fixture
 def turn(context, unfetched):
     """The same game once its first turn has been delivered."""
-    turns.next_message(context, unfetched[1])
+    next_message(context, unfetched[1])
     return unfetched
 
 
@@ -61,7 +61,7 @@ def concede(context, game, mover):
 def ended(context, turn):
     """Whether the mover has been told that the game is over."""
     flag(context)
-    message = turns.next_message(context, turn[1])
+    message = next_message(context, turn[1])
     return message is not None and json.loads(message)["type"] == "game_over"
 
 
@@ -96,7 +96,7 @@ def test_redelivery_never_restarts_the_clock(context, turn):
 def test_a_turn_that_is_fetched_late_gains_a_second_at_most(context, unfetched, late, left):
     """It gained the whole of five seconds: the clock started with the fetch, and the table can be read before it."""
     context.time.value += round(late * SECOND)
-    turns.next_message(context, unfetched[1])
+    next_message(context, unfetched[1])
     context.time.value += SECOND
     assert concede(context, *unfetched) == pytest.approx(left)
 

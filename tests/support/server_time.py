@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -46,9 +45,10 @@ class Stage:
 
     def __init__(self, path: Path, **settings: Any) -> None:
         self.time = StoppedTime()
-        database = Database(f"sqlite:///{path}")
+        made = Settings(**settings)
+        database = Database(f"sqlite:///{path}", group_commit=made.group_commit)
         upgrade(database)
-        self.context = Context(Settings(**settings), database, time=self.time)
+        self.context = Context(made, database, time=self.time)
 
     def close(self) -> None:
         self.context.database.dispose()
@@ -95,7 +95,7 @@ class Stage:
         """Whoever has this view plays, or concedes where the referee refuses."""
         key, version = f"a{view['version']}", view["version"]
         command = self.command(seats.ids[view["seat"]], json.dumps(action).encode(), key, version)
-        act = strokes.decide if "decision" in action else partial(strokes.shoot, may_be_long=True)
+        act = strokes.decide if "decision" in action else strokes.shoot
         try:
             act(self.context, seats.id, lambda _: command)
         except Refused:
@@ -104,8 +104,14 @@ class Stage:
     def news(self, agent: str) -> dict[str, Any] | None:
         """What the agent is told next, after the timer has looked."""
         flag(self.context)
-        message = turns.next_message(self.context, agent)
+        message = next_message(self.context, agent)
         return None if message is None else json.loads(message)
+
+
+def next_message(context: Context, agent: str) -> bytes | None:
+    """What an agent fetches without waiting."""
+    asker = turns.Asker(Caller(agent, "t"), agent, 0.0)
+    return turns.Fetch(context, lambda connection: asker).carried_out()[1]
 
 
 class Seats:
@@ -129,7 +135,7 @@ class Seats:
     def shoot(self, shot: dict[str, Any], key: str = "s", **members: Any) -> dict[str, Any]:
         """The breaker's first stroke; the answer."""
         command = self.stage.command(self.mover, json.dumps({"shot": shot} | members).encode(), key, version=1)
-        return dict(json.loads(strokes.shoot(self.stage.context, self.id, lambda _: command, may_be_long=True).body))
+        return dict(json.loads(strokes.shoot(self.stage.context, self.id, lambda _: command).body))
 
     def concede(self) -> dict[str, Any]:
         """The breaker gives up, which ends the turn; the answer."""

@@ -103,9 +103,13 @@ class SearchAgent(Agent):
 
     def _worth_after(self, game: Game, decision: Decision, view: View) -> Thinking[float]:
         if decision is Decision.OPPONENT_RERACKS:
-            return 1.0 - breaks.worth_of_breaking(self._rules.table)
+            return 1.0 - self._breaking()
         ruling = self._rules.apply(game, Action(decision=decision), None, None)
         if ruling.rerack:
-            return breaks.worth_of_breaking(self._rules.table)
+            return self._breaking()
         thought = yield from self._turn(ruling.game, self._budget(view, len(game.decisions))).best()
         return thought.worth
+
+    def _breaking(self) -> float:
+        """What a new rack is worth to the player who breaks it."""
+        return breaks.worth_of_breaking(self._rules.table, self._noise.by_direction)

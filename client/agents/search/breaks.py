@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from client.geometry import Point, azimuth, is_free, lattice
 from physics import Shot, Table, TableState, min_elevation
 from physics.real_table import SIZES
@@ -55,13 +57,19 @@ BEST_BESIDE_JAWS = {
 }
 """The same on the nine-foot table: the best of 160, of which the last six were played 400 times."""
 
-BREAKING, BREAKING_BESIDE_JAWS = 0.69, 0.47
-"""What a new rack is worth to the player who breaks it: jaws let in fewer balls of a break."""
+BREAKING = {
+    False: {1.0: 0.69, 2.0: 0.58, 5.0: 0.52},
+    True: {1.0: 0.46, 2.0: 0.52, 5.0: 0.52},
+}
+"""What a new rack is worth to the player who breaks it, by whether the table has jaws, and by level of noise: the share
+of games won by the breaker, line `search_odds-20261130T200637`."""
 
 
-def worth_of_breaking(table: Table) -> float:
-    """What a new rack is worth to the player who breaks it."""
-    return BREAKING_BESIDE_JAWS if table.has_jaws else BREAKING
+def worth_of_breaking(table: Table, noise: float) -> float:
+    """What a new rack is worth to the player who breaks it under a level of noise."""
+    measured = BREAKING[table.has_jaws]
+    levels = sorted(measured)
+    return float(np.interp(noise, levels, [measured[level] for level in levels]))
 
 
 def best_break(noise: float, table: Table) -> Break:

@@ -62,6 +62,11 @@ class Sight:
         self._slack, self._sigmas = SIGMAS_FREE * model.level, model.sigmas
         self.sigma = float(np.radians(model.sigmas.phi) * max(model.level, LEAST_NOISE))
 
+    @property
+    def has_jaws(self) -> bool:
+        """Whether it is a real table's."""
+        return self._table.has_jaws
+
     def survey(self, positions: Floats, hand: NDArray[np.bool_], kitchen: float = 0.0) -> Floats:
         """(n, 2, 5): what each table offers to either group; the columns are CHANCE and its fellows."""
         found = np.empty((len(positions), 2, 5))

@@ -40,7 +40,7 @@ FULL = 8000
 """Shots in the budget from which all those copies are played; below it fewer."""
 FINALISTS = 8
 PLAIN = 0.12
-"""A pot that is worth so much more than a safety is played without considering anything else."""
+"""A pot that is worth so much more than a safety, by the race, is played without considering anything else."""
 FREE, HARD = 0.5, 4.0
 """Degrees above the least elevation, and m/s, of a stroke for want of any other."""
 GROUPS = {Group.SOLIDS: 0, Group.STRIPES: 1, None: OPEN}
@@ -108,7 +108,8 @@ class TurnSearch:
     def _think(self, tables: Tables) -> Thinking[None]:
         """Find the best strokes of all kinds, make them better, and tell them apart."""
         yield from self._pots(tables)
-        plain = float(self._evaluator.values.without_pot(tables[:1])[0]) + PLAIN
+        values = self._evaluator.values
+        plain = float(values.without_pot(tables[:1])[0]) + PLAIN * values.odds.scale
         if self._options.safeties and (self._found is None or self._found.worth.max() < plain):
             yield from self._others(tables)
         if self._options.polish:

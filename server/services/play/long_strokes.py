@@ -11,7 +11,7 @@ then plays another.
 
 import asyncio
 import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
 from typing import Final, TypeVar
 
@@ -43,20 +43,21 @@ class LongStrokes:
         self._one = asyncio.Lock()
         self._waiting: dict[str, asyncio.Event] = {}
 
-    async def play(self, game_id: str, run: Callable[[bool], T]) -> T:
-        """What `run` returns, called in a thread.
+    async def play(self, game_id: str, ordinary: Callable[[], Awaitable[T]], long: Callable[[], T]) -> T:
+        """What comes of a stroke.
 
         Args:
             game_id: the game that the stroke belongs to.
-            run: plays a stroke; told whether it may be long, else it raises `IsLong` for one that is.
+            ordinary: plays the stroke; raises `IsLong` for one that is.
+            long: plays a long one, in a thread.
         """
         while (before := self._waiting.get(game_id)) is not None:
             await before.wait()
         try:
-            return await run_in_threadpool(run, False)
+            return await ordinary()
         except IsLong:
             async with self._turn(game_id):
-                return await run_in_threadpool(run, True)
+                return await run_in_threadpool(long)
 
     @asynccontextmanager
     async def _turn(self, game_id: str) -> AsyncIterator[None]:

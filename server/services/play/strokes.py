@@ -9,7 +9,7 @@ import logging
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, Final, TypeVar
+from typing import Any, Final
 
 from sqlalchemy import Connection, insert
 
@@ -38,6 +38,7 @@ from server.services.play import budget, games, stored_strokes
 from server.services.play.live_game import LiveGame
 from server.services.play.long_strokes import MOST_EVENTS, IsLong
 from server.services.runtime.context import Context, Writing
+from server.services.runtime.steps import Done, Steps
 from server.store.locks import hold_match_of
 from server.store.prepared import Prepared
 from server.store.tables import moves
@@ -45,15 +46,13 @@ from server.store.tables import moves
 log = logging.getLogger("pooliad.server.strokes")
 
 
-Stored = TypeVar("Stored")
-
 Move = Callable[[Connection], Command]
 """A move as it came in: a command once its sender has been looked up, which may raise `Unauthorized`."""
 
 
-def shoot(context: Context, game_id: str, move: Move, may_be_long: bool) -> Answer:
-    """Play a stroke; raises `IsLong` for one of very many events unless it may have them."""
-    return _act(context, game_id, move, lambda command: _Asked.of(parse(command, ShotRequest)), may_be_long)
+def shoot(context: Context, game_id: str, move: Move) -> Answer:
+    """Play a stroke, of however many events."""
+    return _act(context, game_id, move, _shot, may_be_long=True)
 
 
 def decide(context: Context, game_id: str, move: Move) -> Answer:
@@ -85,51 +84,87 @@ def _act(
     context.pulse.require(context.time.now())
     while True:
         with contextlib.suppress(games.MoveConflict):
-            return _tried(context, game_id, move, read, may_be_long)
+            return Attempt(context, game_id, move, read, may_be_long).carried_out()
 
 
-def _tried(context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked], may_be_long: bool) -> Answer:
-    with context.database.reading() as connection:
-        command = move(connection)
-        live = _found(context, connection, game_id, command.caller)
-        seat = live.seat_of(command.caller)
+class Attempt(Steps[Answer, tuple[LiveGame, Answer]]):
+    """A move from the complete request to the stored answer.
+
+    Args:
+        context: the server's parts.
+        game_id: the game that it is for.
+        move: as it came in.
+        read: what it asks for.
+        may_be_long: whether a stroke may have very many events.
+    """
+
+    def __init__(
+        self, context: Context, game_id: str, move: Move, read: Callable[[Command], _Asked], may_be_long: bool = False
+    ) -> None:
+        super().__init__(context)
+        self._game_id: Final = game_id
+        self._move: Final = move
+        self._read: Final = read
+        self._may_be_long: Final = may_be_long
+
+    def looked(self, connection: Connection) -> Done[Answer] | None:
+        """The answer, if the move was made before; else it is found to be its sender's turn."""
+        self._command = command = self._move(connection)
+        self._live = live = _found(self.context, connection, self._game_id, command.caller)
+        self._seat = live.seat_of(command.caller)
         if stored := recall(connection, command):
-            return stored
-        _require_turn(connection, live, seat, command)
-    context.failpoint("shot-admitted")
-    with _told_why():
-        asked = read(command)
-        _require_range(live, asked.action)
-        budget.require_left(live, seat, asked.simulated)  # before any noise is drawn
-        stroke = _played(live, asked.action, may_be_long)
-    end = games.TurnEnd(live.clock.charge_of_action(command.arrived), games.next_move(live))
-    told = _Told.of(live, stroke, end, whole=not command.minimal)
-    context.failpoint("shot-simulated")
+            return Done(stored)
+        _require_turn(connection, live, self._seat, command)
+        return None
 
-    def store(writing: Writing) -> tuple[LiveGame, Answer]:
-        hold_match_of(writing.connection, game_id)
-        then = budget.declare(writing.connection, live, seat, asked.simulated)
-        after, view = _stored(writing, then, stroke, end, told)
-        answer = _minimal(after, view) if command.minimal else _answer(after, told, view)
-        keep(writing.connection, command, answer)
-        context.failpoint("shot-kept")
+    def prepare(self) -> None:
+        """Read the request, play the stroke and put it in words; raises `IsLong` for one of very many events."""
+        self.context.failpoint("shot-admitted")
+        live = self._live
+        with _told_why():
+            asked = self._read(self._command)
+            _require_range(live, asked.action)
+            budget.require_left(live, self._seat, asked.simulated)  # before any noise is drawn
+            self._stroke = _played(live, asked.action, self._may_be_long)
+        self._simulated = asked.simulated
+        self._end = games.TurnEnd(live.clock.charge_of_action(self._command.arrived), games.next_move(live))
+        self._told = _Told.of(live, self._stroke, self._end, whole=not self._command.minimal)
+        self.context.failpoint("shot-simulated")
+
+    @property
+    def goes_alone(self) -> bool:
+        """The end of a game is also counted, logged and gone on from."""
+        return self._stroke.game.is_over
+
+    def store(self, writing: Writing) -> tuple[LiveGame, Answer]:
+        """All of it, with the answer; raises `MoveConflict` when the game is not any more as it was looked at."""
+        hold_match_of(writing.connection, self._game_id)
+        then = budget.declare(writing.connection, self._live, self._seat, self._simulated)
+        after, view = _stored(writing, then, self._stroke, self._end, self._told)
+        answer = _minimal(after, view) if self._command.minimal else _answer(after, self._told, view)
+        keep(writing.connection, self._command, answer)
+        self.context.failpoint("shot-kept")
         return after, answer
 
-    after, answer = _carried_out(context, stroke, store)
-    context.failpoint("shot-committed")
-    context.seen.keep(after)
-    _account(context, live, command, end, stroke)
-    context.wakeups.notify(live.agents)
-    context.failpoint("shot-woken")
-    return answer
+    def finished(self, stored: tuple[LiveGame, Answer]) -> Answer:
+        """The answer of a move that is committed, told to those who wait for it."""
+        after, answer = stored
+        self.context.failpoint("shot-committed")
+        self.context.seen.keep(after)
+        _account(self.context, self._live, self._command, self._end, self._stroke)
+        self.context.wakeups.notify(self._live.agents)
+        self.context.failpoint("shot-woken")
+        return answer
 
 
-def _carried_out(context: Context, stroke: Stroke, store: Callable[[Writing], Stored]) -> Stored:
-    """What was stored. The end of a game, which is counted, logged and gone on from, has a transaction of its own."""
-    if not stroke.game.is_over:
-        return context.carry_out(store)
-    with context.writing() as writing:
-        return store(writing)
+def attempt_of(context: Context, game_id: str, move: Move) -> Attempt:
+    """A stroke that may not have very many events: `IsLong` is raised for one that has."""
+    context.pulse.require(context.time.now())
+    return Attempt(context, game_id, move, _shot)
+
+
+def _shot(command: Command) -> _Asked:
+    return _Asked.of(parse(command, ShotRequest))
 
 
 def _played(live: LiveGame, action: Action, may_be_long: bool) -> Stroke:

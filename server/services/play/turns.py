@@ -3,16 +3,18 @@
 import asyncio
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Final
 
 from sqlalchemy import Connection, Row, bindparam, select, update
-from starlette.concurrency import run_in_threadpool
 
 from protocol import Turn
 from server.security.callers import Caller
 from server.services.play.clock import columns
 from server.services.play.live_game import LiveGame
+from server.services.runtime.batches import Batches
 from server.services.runtime.context import Context, Writing
+from server.services.runtime.steps import Done, Steps
 from server.store.locks import hold_match_of, is_shared, only_one
 from server.store.prepared import Prepared
 from server.store.rows import GameRow
@@ -24,7 +26,9 @@ IsGone = Callable[[], Awaitable[bool]]
 """Whether the client has hung up."""
 
 
-async def poll(context: Context, sender: Sender, wait: Callable[[], float], is_gone: IsGone) -> bytes | None:
+async def poll(
+    context: Context, batches: Batches, sender: Sender, wait: Callable[[], float], is_gone: IsGone
+) -> bytes | None:
     """The sender's next message as JSON, or None when there was none for `wait` or the server is stopping.
 
     Who asks is looked up together with the first look for a message: most polls end there. Nothing is delivered to a
@@ -32,55 +36,82 @@ async def poll(context: Context, sender: Sender, wait: Callable[[], float], is_g
 
     Args:
         context: the server's parts.
+        batches: what carries polls out.
         sender: who asks.
         wait: seconds, asked for when it is known that the sender plays; may raise `Invalid`.
         is_gone: whether the sender has hung up.
     """
     if await is_gone():
         return None
-    first = await run_in_threadpool(_first_look, context, sender, wait)
-    context.presence.seen(first.agent, context.time.now())
-    if first.message is not None:
+    asker, message = await batches.carry_out(partial(Fetch, context, partial(_asker, context, sender, wait)))
+    context.presence.seen(asker.agent, context.time.now())
+    if message is not None:
         context.failpoint("turn-committed")
-        return first.message
-    with context.limits.waiting(first.caller):
-        return await _wait_for_message(context, first.agent, first.seconds, is_gone) if first.seconds else None
+        return message
+    with context.limits.waiting(asker.caller):
+        return await _wait_for_message(context, batches, asker, is_gone) if asker.seconds else None
 
 
 @dataclass(frozen=True, slots=True)
-class _First:
-    """Who polls, for how many seconds, and the message that was there."""
+class Asker:
+    """Who polls, and for how many seconds."""
 
     caller: Caller
     agent: str
     seconds: float
-    message: bytes | None
 
 
-def _first_look(context: Context, sender: Sender, wait: Callable[[], float]) -> _First:
-    with context.database.reading() as connection:
-        caller = sender(connection)
-        context.limits.count(caller)
-        agent, seconds = caller.require_agent(), wait()
-        look = _look(context, connection, agent)
-    message = None if context.wakeups.draining.is_set() else _seen(context, agent, look)
-    return _First(caller, agent, seconds, message)
+def _asker(context: Context, sender: Sender, wait: Callable[[], float], connection: Connection) -> Asker:
+    caller = sender(connection)
+    context.limits.count(caller)
+    return Asker(caller, caller.require_agent(), wait())
 
 
-async def _wait_for_message(context: Context, agent: str, seconds: float, is_gone: IsGone) -> bytes | None:
-    """The message that comes within `seconds`.
+class Fetch(Steps[tuple[Asker, bytes | None], bytes | None]):
+    """One look for a message, and its delivery.
+
+    Args:
+        context: the server's parts.
+        asker: whose it is.
+    """
+
+    def __init__(self, context: Context, asker: Callable[[Connection], Asker]) -> None:
+        super().__init__(context)
+        self._who = asker
+
+    def looked(self, connection: Connection) -> Done[tuple[Asker, bytes | None]] | None:
+        """A message that may be given at once, if there is one; None for one whose delivery is to be stored first."""
+        self._asker = asker = self._who(connection)
+        if self.context.wakeups.draining.is_set():
+            return Done((asker, None))
+        look = _look(self.context, connection, asker.agent)
+        return None if look.is_new else Done((asker, look.message))
+
+    def store(self, writing: Writing) -> bytes | None:
+        """The message, with the note that the agent has it: news are not told again, and the turn's clock runs."""
+        return _delivered(writing, self._asker.agent)
+
+    def finished(self, stored: bytes | None) -> tuple[Asker, bytes | None]:
+        """The message."""
+        return self._asker, stored
+
+
+async def _wait_for_message(context: Context, batches: Batches, asker: Asker, is_gone: IsGone) -> bytes | None:
+    """The message that comes within the asker's seconds.
 
     A wake-up is only a hint: the database is asked after each, and every few seconds without one, for another
     process may have written what is waited for.
     """
-    loop = asyncio.get_running_loop()
-    end = loop.time() + seconds
+    loop, agent = asyncio.get_running_loop(), asker.agent
+    end = loop.time() + asker.seconds
+    fetch = partial(Fetch, context, lambda connection: asker)
     hint = context.wakeups.listen(agent)
     context.presence.enter(agent)
     try:
         while not context.wakeups.draining.is_set() and not await is_gone():
             hint.clear()
-            if (message := await run_in_threadpool(next_message, context, agent)) is not None:
+            _, message = await batches.carry_out(fetch)
+            if message is not None:
                 context.failpoint("turn-committed")
                 return message
             left = end - loop.time()
@@ -101,13 +132,6 @@ async def _wait(hint: asyncio.Event, seconds: float) -> None:
         return
 
 
-def next_message(context: Context, agent: str) -> bytes | None:
-    """News first, each once; else the turn that waits, again and again until it is played."""
-    with context.database.reading() as connection:
-        look = _look(context, connection, agent)
-    return _seen(context, agent, look)
-
-
 @dataclass(frozen=True, slots=True)
 class _Look:
     """What there is for an agent: a message that may be given at once, or one whose delivery is to be stored first."""
@@ -126,28 +150,19 @@ def _look(context: Context, connection: Connection, agent: str) -> _Look:
     return _Look(_message(connection, context.seen.of(connection, turn), agent, now))
 
 
-def _seen(context: Context, agent: str, look: _Look) -> bytes | None:
-    return _delivered(context, agent) if look.is_new else look.message
-
-
-def _delivered(context: Context, agent: str) -> bytes | None:
-    """The message, once it is stored that the agent has it: news are not told again, and the turn's clock runs."""
-
-    def deliver(writing: Writing) -> bytes | None:
-        connection, now = writing.connection, writing.now
-        if (news := _new(connection, agent)) is not None:
-            _NOTICE_DELIVERED.run(connection, {"this": news.sequence, "now": now})
-            return str(news.message).encode()
-        if (turn := _waiting_turn(connection, agent, now)) is not None and is_shared(connection):
-            hold_match_of(connection, turn.id)
-            turn = _waiting_turn(connection, agent, now, turn.id)  # as it is now that nobody else changes it
-        if turn is None:
-            return None
-        message = _turn_begun(writing, context.seen.of(connection, turn, is_committed=False), agent)
-        context.failpoint("turn-delivered")
-        return message
-
-    return context.carry_out(deliver)
+def _delivered(writing: Writing, agent: str) -> bytes | None:
+    connection, now = writing.connection, writing.now
+    if (news := _new(connection, agent)) is not None:
+        _NOTICE_DELIVERED.run(connection, {"this": news.sequence, "now": now})
+        return str(news.message).encode()
+    if (turn := _waiting_turn(connection, agent, now)) is not None and is_shared(connection):
+        hold_match_of(connection, turn.id)
+        turn = _waiting_turn(connection, agent, now, turn.id)  # as it is now that nobody else changes it
+    if turn is None:
+        return None
+    message = _turn_begun(writing, writing.context.seen.of(connection, turn, is_committed=False), agent)
+    writing.context.failpoint("turn-delivered")
+    return message
 
 
 _NEWS: Final = Prepared(

@@ -1,9 +1,11 @@
 """What every service works with: made once by `create_app`, handed down, never global."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from contextvars import Context as Vars
 from dataclasses import dataclass, field
-from typing import Final, TypeVar
+from functools import partial
+from typing import Final, Generic, TypeVar
 
 from anyio import CapacityLimiter, to_thread
 from sqlalchemy import Connection
@@ -89,27 +91,47 @@ class Context:
         with self.database.writing() as connection:
             writing = Writing(connection, self, self.time.now())
             yield writing
-        self._told(writing)
+        self.tell(writing)
 
     def carry_out(self, work: Callable[["Writing"], T]) -> T:
         """The same for work that may share its transaction with others' (`Database.carry_out`)."""
-        writing: Writing | None = None
+        written = _Written(self, work)
+        return written.told(self.database.carry_out(written.carried_out))
 
-        def carried_out(connection: Connection) -> T:
-            nonlocal writing
-            writing = Writing(connection, self, self.time.now())
-            return work(writing)
+    def carry_out_together(self, works: Sequence[tuple[Callable[["Writing"], T], Vars]]) -> list[Callable[[], T]]:
+        """The same for what one thread has collected (`Database.carry_out_together`)."""
+        written = [(_Written(self, work), variables) for work, variables in works]
+        results = self.database.carry_out_together([(one.carried_out, variables) for one, variables in written])
+        return [
+            partial(lambda one, result: one.told(result()), one, result)
+            for (one, _), result in zip(written, results, strict=True)
+        ]
 
-        result = self.database.carry_out(carried_out)
-        assert writing is not None
-        self._told(writing)
-        return result
-
-    def _told(self, writing: "Writing") -> None:
+    def tell(self, writing: "Writing") -> None:
         """What a transaction made known is, now that it is committed."""
         self.courses.keep(writing.courses)
         if writing.woken:
             self.wakeups.notify(writing.woken)
+
+
+class _Written(Generic[T]):
+    """Work in a transaction that others may share, and what it made known."""
+
+    def __init__(self, context: Context, work: Callable[["Writing"], T]) -> None:
+        self._context = context
+        self._work = work
+        self._writing: Writing | None = None
+
+    def carried_out(self, connection: Connection) -> T:
+        """What the work makes of the transaction; called again where that failed by another's fault."""
+        self._writing = Writing(connection, self._context, self._context.time.now())
+        return self._work(self._writing)
+
+    def told(self, result: T) -> T:
+        """The result, once it is committed and what it made known is told."""
+        assert self._writing is not None
+        self._context.tell(self._writing)
+        return result
 
 
 @dataclass(frozen=True, slots=True)
