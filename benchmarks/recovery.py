@@ -27,7 +27,7 @@ from physics import Table
 SEED = 5000
 FULL, SHORT = 400, 4
 NINE_FOOT_EVERY = 4
-"""So many sets of the Olympiad's table to one of a nine-foot table, whose fits take longer."""
+"""Sets of the Olympiad's table for each set of a nine-foot table, whose fits take longer."""
 SIZES = {
     True: ((5, 1e-3, 20.0), (20, 1e-3, 20.0), (30, 1e-3, 20.0), (10, 5e-4, 20.0), (10, 1e-3, 60.0)),
     False: ((30, 1e-3, 20.0),),

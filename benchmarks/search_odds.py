@@ -1,8 +1,9 @@
 """What the race of `search` reckons against what its games show: the two numbers of `client.agents.search.odds`.
 
-Games of the agent against itself, in lock-step. Every turn is a row: the race's chance for whoever shoots, and whether
-that player won. Shift and scale of the log-odds are fitted to the even pairs and judged on the odd ones; what is copied
-is the fit to all. The share of games that the breaker wins is what a new rack is worth (`client.agents.search.breaks`).
+Games of the agent against itself, in lock-step. A turn is a row: the chance that the race gives the shooter, and
+whether the shooter won the game. Shift and scale of the log-odds are fitted to the even pairs and judged on the odd
+ones; what is copied is the fit to all. The breaker's share of the games is what a new rack is worth
+(`client.agents.search.breaks`).
 """
 
 import time

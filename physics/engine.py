@@ -72,7 +72,7 @@ def _usable(place: Path) -> Path | None:
 
 
 def _aligned(count: int) -> NDArray[np.float64]:
-    """So many numbers from the start of a cache line on: sixteen balls' are read by lines, and none lies across two."""
+    """Memory of (1, count) float64 that begins at a cache line: the rows of sixteen balls fill whole lines."""
     memory = np.empty(count + CACHE_LINE // 8)
     first = -memory.ctypes.data % CACHE_LINE // 8
     return memory[first : first + count].reshape(1, count)

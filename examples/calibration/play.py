@@ -2,7 +2,7 @@
 
     python examples/calibration/play.py my_table.toml Ann greedy
 
-Its environment has POOLIAD_URL and POOLIAD_ORGANISER_TOKEN. Whoever is at the page as Ann enters the match at once.
+The variables POOLIAD_URL and POOLIAD_ORGANISER_TOKEN say where and by whose right. Ann's page enters the match at once.
 """
 
 import os

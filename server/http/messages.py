@@ -10,10 +10,10 @@ import asyncio
 import re
 from collections.abc import Callable
 from http import HTTPStatus
-from typing import Final
+from typing import Any, Final
 
 import httptools
-from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol
+from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol, RequestResponseCycle
 
 from server.http.body_gate import LONGEST_HEAD
 
@@ -29,7 +29,31 @@ class Unreadable(Exception):
 
 
 class HeadTooLong(Unreadable):
-    """A head that does not end within so many bytes as one may have."""
+    """A head that is longer than `LONGEST_HEAD`, finished or not."""
+
+
+class _UntilClosed:
+    """An answer to HTTP/1.0: without a length it ends with the connection, for there are no chunks (RFC 9112, 6.1).
+
+    Args:
+        cycle: the request and its answer, as uvicorn keeps them.
+    """
+
+    def __init__(self, cycle: RequestResponseCycle) -> None:
+        self._cycle = cycle
+        self._send = cycle.send
+        self._has_length = True
+
+    async def send(self, message: Any) -> None:
+        """Send a part of the answer."""
+        cycle = self._cycle
+        if message["type"] == "http.response.start":
+            self._has_length = any(name.lower() == b"content-length" for name, _ in message["headers"])
+            if not self._has_length:
+                cycle.chunked_encoding = cycle.keep_alive = False
+        elif not self._has_length:
+            cycle.expected_content_length = len(message.get("body", b""))  # each part is as long as it is
+        await self._send(message)
 
 
 class OneAtATime(HttpToolsProtocol):
@@ -108,7 +132,7 @@ class OneAtATime(HttpToolsProtocol):
         raise Unreadable
 
     def _cut_counted(self) -> bytes:
-        """What there is of a body that has so many bytes."""
+        """What has come of a body whose length the head says."""
         piece = self._taken(self._left)
         self._left -= len(piece)
         return piece
@@ -136,7 +160,7 @@ class OneAtATime(HttpToolsProtocol):
         super().on_message_begin()
 
     def on_header(self, name: bytes, value: bytes) -> None:
-        """A field, without the blanks behind it (RFC 9110, 5.5); one behind the body is none of its (6.5.1)."""
+        """Take a field of a head without blanks behind its value (RFC 9110, 5.5); drop it behind the body (6.5.1)."""
         if not self._has_head:
             super().on_header(name, value.rstrip(b" \t"))
 
@@ -149,6 +173,8 @@ class OneAtATime(HttpToolsProtocol):
         self._frame_body()
         self._unset_keepalive_if_required()
         super().on_headers_complete()
+        if self.parser.get_http_version() == "1.0":
+            self.cycle.send = _UntilClosed(self.cycle).send  # type: ignore[method-assign]
 
     def _require_one_host(self) -> None:
         """Raise `Unreadable` (RFC 9112, 3.2)."""

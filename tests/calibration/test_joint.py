@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from benchmarks.recovery import OLYMPIAD
 from calibration import calibrate
 from calibration.joint import JointFit, Member
 from calibration.parameters import fitted_parameters
@@ -11,17 +12,7 @@ from calibration.shot_model import LEVEL, ShotModel, elevation, elevation_nuisan
 from calibration.synthetic import Camera, seen
 from physics import Table
 
-TRUTH = {
-    "mu_slide": 0.21,
-    "mu_roll": 0.0125,
-    "mu_spin": 0.05,
-    "e_ball": 0.94,
-    "mu_ball": 0.06,
-    "cushion_perpendicular": 0.68,
-    "cushion_parallel": 0.87,
-    "cushion_spin": 0.2,
-}
-TABLE = Table.olympiad().replace(**TRUTH)
+TRUTH, TABLE = OLYMPIAD.truth, OLYMPIAD.table
 
 
 @pytest.mark.parametrize("seed", [5005, pytest.param(5012, marks=pytest.mark.slow)])

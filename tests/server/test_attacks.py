@@ -204,6 +204,23 @@ def test_fields_behind_a_body_without_end_are_cut_off(server):
     assert said.startswith(b"HTTP/1.1 400 "), said[:200]
 
 
+def test_readers_of_1_0_get_no_chunks(server, new_table):
+    """RFC 9112, 6.1: an answer of unknown length ends with its connection there."""
+    table = new_table()
+    mover, view = table.mover()
+    mover.post(f"/v1/games/{table.game}/concede", version=view["version"])
+    told = []
+    for version in (b"1.0", b"1.1"):
+        line = b"GET /v1/games/%b/stream HTTP/%b\r\nHost: localhost\r\nConnection: close\r\n\r\n"
+        answer = exchanged(server, line % (table.game.encode(), version))
+        head, _, body = answer.partition(b"\r\n\r\n")
+        assert head.startswith(b"HTTP/1.1 200")
+        assert (b"transfer-encoding: chunked" in head.lower()) == (version == b"1.1")
+        told.append(body)
+    assert told[0].startswith((b"id:", b"event:", b":", b"retry:"))
+    assert b"event: result" in told[0]
+
+
 def test_nonsense_behind_a_request_waits_for_its_answer(server):
     """Else the refusal would be taken for the answer of the request before it."""
     said = exchanged(server, HEALTH + b"\r\n" + HEALTH + b"Content-Length: x\r\n\r\n")

@@ -1,7 +1,7 @@
 """The race's chances as games bear them out.
 
-The race is too sure of itself: who is behind meets easier tables than it reckons with, who is ahead the harder balls.
-In log-odds games follow it on a straight line, which `benchmarks/search_odds.py` fits by level of noise and table.
+The race is too sure of itself: the player behind meets easier tables than it reckons with, the player ahead harder
+balls. In log-odds games follow it on a straight line, which `benchmarks/search_odds.py` fits by noise and table.
 """
 
 import functools
@@ -17,7 +17,7 @@ SUREST = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class Odds:
-    """Log-odds to win, of whoever shoots next: ``shift`` plus ``scale`` times the race's.
+    """The shooter's log-odds to win: ``shift`` plus ``scale`` times those of the race.
 
     Attributes:
         shift: nats. scale: 1 where games bear the race out.
