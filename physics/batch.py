@@ -108,7 +108,7 @@ def simulate_batch(
             check()
         given = positions if len(positions) == 1 else positions[first:last]
         if not isinstance(states, TableState):
-            _refuse_bad_rows(table, given, first)
+            refuse_bad_rows(table, given, first)
         shots, *outputs = (array[first:last] for array in by_row)
         run(row, workspace(), given, shots, *outputs, NO_TRACE, counted[first:last])
 
@@ -180,11 +180,21 @@ def checked_states(table: Table, states: TableState | NDArray[np.float64], n: in
     return positions.reshape(n, 2 * N_BALLS)
 
 
-def _refuse_bad_rows(table: Table, positions: NDArray[np.float64], first: int) -> None:
-    """Raise for the first of the rows whose balls are off the table or overlap; ``first``: the number of the first."""
-    least = 2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE
+def refuse_bad_rows(
+    table: Table, positions: NDArray[np.float64], first: int, nearest: float = 2.0 * BALL_RADIUS - PLACEMENT_TOLERANCE
+) -> None:
+    """Raise for the first row whose balls are off the table or overlap.
+
+    Args:
+        positions: (n, 32) m.
+        first: the number of the first row.
+        nearest: how near two centres may be, m.
+
+    Raises:
+        InvalidState: names the row and the ball.
+    """
     find = kernels(table.has_jaws).first_bad_row
-    row, ball, other = find(parameters(table), workspace(), positions, least * least, PLACEMENT_TOLERANCE)
+    row, ball, other = find(parameters(table), workspace(), positions, nearest * nearest, PLACEMENT_TOLERANCE)
     if row < 0:
         return
     allowed = "must be two finite numbers inside the cushion lines and outside the mouths"

@@ -6,10 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from physics.batch import checked_shots, checked_states
-from physics.constants import N_BALLS, PLACEMENT_TOLERANCE
+from physics.batch import checked_shots, checked_states, refuse_bad_rows
+from physics.constants import N_BALLS
 from physics.engine import kernels, workspace
-from physics.errors import InvalidState
 from physics.events import OUT_OF_PLAY
 from physics.facts import FACTS_DTYPE, FACTS_WORDS
 from physics.kernels import layout as at
@@ -65,20 +64,20 @@ def simulate_paths(
     Raises:
         InvalidShot: wrong shape, or a value that is not finite; names the first bad row.
         InvalidState: wrong shape, not finite, or off the table; names the first bad row.
-        ValueError: ``tables`` or ``times`` are not as said.
+        ValueError: ``tables``, ``times`` or ``balls`` are not as said.
     """
     strokes = checked_shots(shots)
     n = len(strokes)
     each = (tables,) * n if isinstance(tables, Table) else tuple(tables)
     if len(each) != n or len({table.has_jaws for table in each}) > 1:
-        raise ValueError(f"tables: must be one, or {n}, all with jaws or all without")
+        raise ValueError(f"tables = {len(each)} tables: must be one, or {n}, all with jaws or all without")
     given = checked_states(each[0], states, n) if n else np.empty((0, 2 * N_BALLS))
     given = np.repeat(given, n, axis=0) if isinstance(states, TableState) else given
     wanted = _checked_times(times, n)
     seen = _Seen(given, wanted.shape[1], each[0].has_jaws if n else False)
     for number, table in enumerate(each):
         seen.fill(number, table, strokes[number : number + 1], wanted[number : number + 1])
-    return seen.paths(each, list(balls))
+    return seen.paths(each, _checked_balls(balls))
 
 
 class _Seen:
@@ -108,11 +107,7 @@ class _Seen:
         one = slice(number, number + 1)
         start, words = self._starts[one], self._words[one]
         entries, row, work = kernels(self._has_jaws), parameters(table), workspace()
-        bad, ball, _ = entries.first_bad_row(row, work, start, 0.0, PLACEMENT_TOLERANCE)
-        if bad >= 0:
-            place = start[0, 2 * ball : 2 * ball + 2].tolist()
-            allowed = "must be two finite numbers inside the cushion lines and outside the mouths"
-            raise InvalidState(f"states[{number}][{ball}]", place, allowed)
+        refuse_bad_rows(table, start, number, nearest=0.0)
         entries.simulate_rows(row, work, start, stroke, self._final, self._pocket, words, self._trace, NO_COUNTERS)
         size = int(words[0, at.F_EVENTS]) * self._stride
         if size > self._trace.shape[1]:
@@ -148,12 +143,22 @@ class _Seen:
         )
 
 
+def _checked_balls(balls: Sequence[int]) -> list[int]:
+    """Numbers of balls."""
+    for ball in balls:
+        if isinstance(ball, bool) or not isinstance(ball, int | np.integer) or not 0 <= ball < N_BALLS:
+            raise ValueError(f"balls = {ball!r}: must be numbers from 0 to {N_BALLS - 1}")
+    return [int(ball) for ball in balls]
+
+
 def _checked_times(times: Floats, n: int) -> Floats:
     """(n, m) ascending times."""
     given = np.asarray(times)
     rows = np.repeat(given[None], n, axis=0) if given.ndim == 1 else given
     if given.dtype != np.float64 or rows.ndim != 2 or len(rows) != n:
-        raise ValueError(f"times: must be float64 of shape (m,) or ({n}, m), not {given.dtype.name} {given.shape}")
-    if not (np.isfinite(given).all() and (given[..., 1:] >= given[..., :-1]).all()):
-        raise ValueError("times: must be finite numbers, ascending in each row")
+        raise ValueError(f"times = {given.dtype.name} {given.shape}: must be float64 of shape (m,) or ({n}, m)")
+    ends = ~np.isfinite(rows)
+    ends[:, 1:] |= rows[:, 1:] < rows[:, :-1]
+    for row, place in np.argwhere(ends)[:1].tolist():
+        raise ValueError(f"times[{row}][{place}] = {rows[row, place]}: must be finite, not before the last one")
     return np.ascontiguousarray(rows)

@@ -1,4 +1,4 @@
-"""The page's scripts as one: a browser that asks for fifty modules has its picture a quarter of a second later.
+"""The page's scripts as one: a browser that asks for fifty modules has its picture later.
 
 A module becomes a function that is called at once and returns what it exports; those that it imports stand before it.
 What `server/web` is written in is understood, nothing else: named imports and exports, each beginning a line.

@@ -2,8 +2,8 @@
 
 numba links a kernel into every kernel that calls it, and optimises it there anew, up to the entry point: what is at
 depth d is optimised d times, and what several call is copied. For the event loop that is half the time to compile, and
-for the code of tables with jaws minutes. A kernel ``apart`` is optimised once, and a call of it costs some 2 ns, an
-array handed over as much again: it is for what is large, or rarely run.
+for the code of tables with jaws minutes. A kernel ``apart`` is optimised once, and a call of it costs some 2 ns and
+more for every array handed over: it is for what is large, or rarely run.
 
 On the other kind of table, and interpreted, it is a kernel like any other. Its code is kept on disk as an entry
 point's is; ``load_apart`` binds the names before what calls them is loaded.

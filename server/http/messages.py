@@ -10,12 +10,13 @@ import asyncio
 import re
 from collections.abc import Callable
 from http import HTTPStatus
-from typing import Any, Final
+from typing import Final
 
 import httptools
-from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol, RequestResponseCycle
+from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol
 
 from server.http.body_gate import LONGEST_HEAD
+from server.http.until_closed import UntilClosed
 
 BLANK_LINE: Final = re.compile(rb"\n\r?\n")
 UPGRADE: Final = re.compile(rb"\nupgrade:[^\n]*(?=\n)", re.IGNORECASE)
@@ -30,30 +31,6 @@ class Unreadable(Exception):
 
 class HeadTooLong(Unreadable):
     """A head that is longer than `LONGEST_HEAD`, finished or not."""
-
-
-class _UntilClosed:
-    """An answer to HTTP/1.0: without a length it ends with the connection, for there are no chunks (RFC 9112, 6.1).
-
-    Args:
-        cycle: the request and its answer, as uvicorn keeps them.
-    """
-
-    def __init__(self, cycle: RequestResponseCycle) -> None:
-        self._cycle = cycle
-        self._send = cycle.send
-        self._has_length = True
-
-    async def send(self, message: Any) -> None:
-        """Send a part of the answer."""
-        cycle = self._cycle
-        if message["type"] == "http.response.start":
-            self._has_length = any(name.lower() == b"content-length" for name, _ in message["headers"])
-            if not self._has_length:
-                cycle.chunked_encoding = cycle.keep_alive = False
-        elif not self._has_length:
-            cycle.expected_content_length = len(message.get("body", b""))  # each part is as long as it is
-        await self._send(message)
 
 
 class OneAtATime(HttpToolsProtocol):
@@ -174,7 +151,7 @@ class OneAtATime(HttpToolsProtocol):
         self._unset_keepalive_if_required()
         super().on_headers_complete()
         if self.parser.get_http_version() == "1.0":
-            self.cycle.send = _UntilClosed(self.cycle).send  # type: ignore[method-assign]
+            self.cycle.send = UntilClosed(self.cycle).send  # type: ignore[method-assign]
 
     def _require_one_host(self) -> None:
         """Raise `Unreadable` (RFC 9112, 3.2)."""
