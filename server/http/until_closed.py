@@ -21,7 +21,7 @@ class UntilClosed:
         """Send a part of the answer."""
         cycle = self._cycle
         if message["type"] == "http.response.start":
-            self._has_length = any(name.lower() == b"content-length" for name, _ in message["headers"])
+            self._has_length = any(name.lower() == b"content-length" for name, _ in message.get("headers", ()))
             if not self._has_length:
                 cycle.chunked_encoding = cycle.keep_alive = False
         elif not self._has_length:
