@@ -21,7 +21,7 @@ _LOADING = threading.Lock()
 
 @functools.cache
 def step() -> Any:
-    """The module of the compiled step, ready to be called; kept beside the physics' own compiled kernels."""
+    """The entries of the compiled step, ready to be called; kept beside the physics' own compiled kernels."""
     with _LOADING:  # numba's setting below is the whole process's
         return _load()
 
@@ -33,10 +33,10 @@ def _load() -> Any:
     folder, before = cache_folder(), numba.config.CACHE_DIR
     own = None if folder is None else folder / f"learn-{digest_of(Path(__file__).parent / 'compiled')[:16]}"
     if not numba.config.DISABLE_JIT:
-        say_if_compiled_now(own, "kernels", "the learning environments")
+        say_if_compiled_now(own, "aiming", "the learning environments")  # which takes longest
     try:
         numba.config.CACHE_DIR = str(own or "")
-        return importlib.import_module("client.learn.compiled.kernels")
+        return importlib.import_module("client.learn.compiled.entries")
     finally:
         numba.config.CACHE_DIR = before
 
