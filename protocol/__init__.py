@@ -1,9 +1,11 @@
 """What is on the wire, defined once: pydantic models of requests, answers and problems, and problem codes."""
 
 from protocol.agents import AgentList, AgentRequest, AgentToken, AgentView
+from protocol.allowed import Allowed, Area
 from protocol.answers import MinimalAnswer, ShotsPage, StrokeAnswer
 from protocol.best_strokes import BestStroke, BestStrokes
 from protocol.clocks import ChargeView, ClockLedger, ForfeitRequest, SeatLedger
+from protocol.game_terms import GameTerms
 from protocol.keys import KeyList, KeyView
 from protocol.ladder import Ladder, RungView
 from protocol.matches import (
@@ -67,7 +69,7 @@ from protocol.tournaments import (
     VoidRequest,
 )
 from protocol.turns import TURN_MESSAGE, GameOver, MatchOver, SeedWanted, Turn, TurnMessage
-from protocol.view import Allowed, Area, GameTerms, View
+from protocol.view import View
 
 __all__ = [
     "PROBLEM_JSON",
