@@ -19,7 +19,8 @@ from referee.record.difference import Difference, first_difference
 from referee.record.engine import Engine, this_engine
 from referee.record.lines import Header, end_entry, stroke_entry
 from referee.record.reading import InvalidRecord, Record, read_record
-from referee.record.signing import PublicKey, SealState, check_seal
+from referee.record.signing import SealState, check_seal
+from referee.record.signing_keys import PublicKey
 from referee.record.verdict import RecordVerdict, Verification
 
 T = TypeVar("T")
