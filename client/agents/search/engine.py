@@ -28,7 +28,7 @@ def geometry(jaws: bool = False) -> Any:
     folder = cache_folder()
     own = None if folder is None else folder / f"search-{digest_of(Path(__file__).parent / 'compiled')[:16]}"
     with kept_in(own):
-        module = importlib.import_module("client.agents.search.compiled.kernels")
+        module = importlib.import_module("client.agents.search.compiled.entries")
         _call_once(module)
     return module
 
