@@ -1,6 +1,7 @@
 """The first picture of a game's page is the server's: before the script, and where the canvas will stand (issue 17)."""
 
 import json
+import time
 from typing import Any
 
 import pytest
@@ -57,6 +58,8 @@ def games(server: Any) -> dict[str, str]:
     headers = {"If-Match": f'"{view["version"]}"'}
     answer = server.send("POST", f"/v1/games/{game}/concede", over.tokens[seat], headers=headers)
     assert answer.status_code == 200, answer.text
+    while server.http.get(f"/games/{jaws.game}").text.count("disconnected") < 2:
+        time.sleep(0.1)  # else somebody who has just polled leaves while the test looks
     return {"begun": begun.game, "grouped": grouped.game, "jaws": jaws.game, "over": game}
 
 
@@ -115,6 +118,10 @@ def test_without_scripts_the_position_is_seen(new_page, server, games):
         box = page.locator(TABLE).bounding_box()
         assert 0 <= box["x"] <= box["x"] + box["width"] <= width
         assert box["height"] <= max(280, 0.66 * height) + 1
+        seen = min(height, box["y"] + box["height"]) - box["y"]
+        assert seen >= (0.95 if width == 390 else 1.0) * box["height"], (
+            "without scrolling; upright, its lower rail may be below"
+        )
         assert (box["width"] > box["height"]) is (width != 390)
 
 
