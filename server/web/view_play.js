@@ -80,7 +80,7 @@ export class PlayView {
       el("p", {}, "You are ", el("strong", {}, me.name), ". Games played here are unrated. ",
         el("button", { type: "button", onclick: () => this.leave() }, "Sign out")),
       tokenPanel(),
-      this.problem, el("p", { class: "one-line" }, labelled("Kind of table", this.table), labelled("Table file, from pooliad calibrate", file), labelled("Noise of the strokes", this.noise)),
+      this.problem, el("p", { class: "one-line wide" }, labelled("Kind of table", this.table), labelled("Table file, from pooliad calibrate", file), labelled("Noise of the strokes", this.noise)),
       el("div", { class: "cards" },
         el("section", { class: "panel", "aria-label": "Opponent" }, el("h2", {}, "Against the house"), bots),
         el("section", { class: "panel", "aria-label": "Another player" }, el("h2", {}, "Against another player"),

@@ -447,6 +447,7 @@ def test_a_game_by_hand_on_the_table_that_was_calibrated(new_page, own_server_wi
     page.get_by_label("Table file, from pooliad calibrate").set_input_files(file)
     kind = page.get_by_label("Kind of table").locator("option:checked", has_text="my_table.toml: nine-foot table, own ")
     kind.wait_for(state="attached")
+    assert page.evaluate("document.documentElement.scrollWidth") == 390, "a long name widens nothing"
     page.get_by_role("button", name="Play random").click(timeout=PATIENCE)
     page.wait_for_url(re.compile("#/play/game_"), timeout=PATIENCE)
     game = page.url.rpartition("/")[2]
