@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 import physics
-from benchmarks import hostile, soundness, stress, variants
+from benchmarks import hostile, hostile_scenes, soundness, stress, variants
 from benchmarks.command import main
 from benchmarks.recording import Row, Tables
 from benchmarks.scenes import Floats
@@ -72,7 +72,7 @@ def outcomes(name: str | None, _factor: float, shots: int, flights: int) -> dict
 
 def outcome(kind: str, n: int, flights: int, moved: bool) -> Outcome:
     """Ends, events and faults of one class."""
-    table, states, shots = stress.scene_of(kind, SEED, n)
+    table, states, shots = hostile_scenes.scene_of(kind, SEED, n)
     if moved:
         shots[:, hostile.V] = np.nextafter(shots[:, hostile.V], 0.0)
     batch = physics.simulate_batch(table, states, shots)

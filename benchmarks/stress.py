@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 import physics
-from benchmarks import everything, hostile, hostile_jaws, pieces, soundness, unfiltered, variants
+from benchmarks import everything, hostile, hostile_jaws, hostile_scenes, pieces, soundness, unfiltered, variants
 from benchmarks.command import main
 from benchmarks.recording import Row, Tables
 
@@ -37,7 +37,6 @@ STRETCHES = 40
 REPLAYED = 4
 """One chunk in so many is played again by kernels that filter nothing."""
 
-CLASSES = hostile.CLASSES | hostile_jaws.CLASSES
 
 MOST_FAILURES = 24
 """Failures kept in the data line; the table counts all."""
@@ -170,14 +169,8 @@ def give_up(
 
 def nothing(classes: Iterable[str]) -> tuple[physics.Table, physics.TableState, list[list[float]]]:
     """A shot without balls on a table of the first class."""
-    table = table_of(next(iter(classes)), np.random.default_rng(0))
+    table = hostile_scenes.table_of(next(iter(classes)), np.random.default_rng(0))
     return table, physics.TableState.from_positions({}), [[1.0, 0.0, 0.0, 0.0, 0.0]]
-
-
-def table_of(kind: str, rng: hostile.Rng) -> physics.Table:
-    """The table that a class is played on."""
-    home = hostile if kind in hostile.CLASSES else hostile_jaws
-    return home.table_for(kind, rng)
 
 
 def chunks(kind: str, shots: int, flights: int) -> Iterator[tuple[str, int, int, int]]:
@@ -188,16 +181,9 @@ def chunks(kind: str, shots: int, flights: int) -> Iterator[tuple[str, int, int,
         yield kind, 1000 + index, size, -(-flights // number)
 
 
-def scene_of(kind: str, seed: int, n: int) -> tuple[physics.Table, hostile.Floats, hostile.Floats]:
-    """Table, states and shots of a chunk: the same for the same seed."""
-    rng = np.random.default_rng([seed, *kind.encode()])
-    table = table_of(kind, rng)
-    return table, *CLASSES[kind](table, rng, n)
-
-
 def attempt(kind: str, seed: int, n: int, flights: int) -> Tally:
     """Simulate one chunk and judge it."""
-    table, states, shots = scene_of(kind, seed, n)
+    table, states, shots = hostile_scenes.scene_of(kind, seed, n)
     physics.simulate_batch(*nothing([kind]))  # loads the kernels: not part of the time
     started = time.thread_time()
     batch = physics.simulate_batch(table, states, shots)
@@ -267,7 +253,7 @@ def compare(tallies: dict[str, Tally]) -> None:
         other = hashes != tallies[kind].hashes[seed]
         tallies[kind].faults["other bits"] += int(other.sum())
         for row in soundness.first_rows(other, SHOWN).tolist():
-            table, states, shots = scene_of(kind, seed, n)
+            table, states, shots = hostile_scenes.scene_of(kind, seed, n)
             fault = "other bits without filter"
             tallies[kind].failures.append(failure(kind, seed, row, fault, table, states[row], shots[row]))
 

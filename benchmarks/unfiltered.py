@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import physics
-from benchmarks import variants
+from benchmarks import hostile_scenes, variants
 
 Hashes = NDArray[np.uint64]
 
@@ -87,11 +87,9 @@ def hashes_of(batch: physics.Batch) -> Hashes:
 
 def replayed(jobs: list[tuple[str, int, int]]) -> list[Hashes]:
     """Hashes of chunks (class, seed, shots) of the stress run."""
-    from benchmarks import stress
-
     found = []
     for done, job in enumerate(jobs):
-        found.append(hashes_of(physics.simulate_batch(*stress.scene_of(*job))))
+        found.append(hashes_of(physics.simulate_batch(*hostile_scenes.scene_of(*job))))
         if done % 10 == 0:
             print(f"{done} of {len(jobs)} chunks without filter", flush=True)
     return found

@@ -6,11 +6,12 @@ import numpy as np
 
 from calibration.errors import InvalidFit
 from calibration.joint import JointFit
+from calibration.matching import Observer, match
 from calibration.observed import Floats, Observations
 from calibration.parameters import Parameter, fitted_parameters, replaced
 from calibration.result import COVERED, Calibration, FittedParameter, explained
 from calibration.shot_model import ShotModel
-from calibration.staged import Observer, StagedShot, match
+from calibration.staged import StagedShot
 from physics import Table
 
 REPEATS = 1000

@@ -7,9 +7,9 @@ import numpy as np
 
 from calibration.errors import InvalidFit
 from calibration.fit import calibrate
+from calibration.matching import Observer
 from calibration.observed import Observations
 from calibration.result import Calibration
-from calibration.staged import Observer
 from physics import InvalidTable, Table
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from calibration.errors import InvalidFit
 from physics import RealTable, Table
-from physics.real_table import RANGES as REAL_RANGES
+from physics.specifications import RANGES as REAL_RANGES
 from physics.table import RANGES
 
 LEAST_ROLL = 0.001

@@ -38,11 +38,16 @@ class LocalMatch:
     score: tuple[float, float]
     seed: int
 
+    def __str__(self) -> str:
+        """Who played and how it ended."""
+        (one, other), (first, second) = self.players, self.score
+        return f"{one} {first:g} : {second:g} {other}, seed {self.seed}"
+
     def __repr__(self) -> str:
-        return f"<LocalMatch {notebook.match_line(self)}>"
+        return f"<LocalMatch {self}>"
 
     def _repr_html_(self) -> str:
-        return notebook.replay_of(self.games, notebook.match_line(self))
+        return notebook.replay_of([(game.header, game.strokes) for game in self.games], str(self))
 
     @property
     def winner(self) -> str | None:

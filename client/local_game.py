@@ -97,11 +97,17 @@ class PlayedGame:
         """What the record tells of simulated shots: nothing where no budget counts them."""
         return None if self.header.budget is None else self.simulated
 
+    def __str__(self) -> str:
+        """Who played, who won and why."""
+        (one, other), outcome = self.header.players, self.outcome
+        winner = "nobody" if outcome.winner is None else self.header.players[outcome.winner]
+        return f"{one} against {other}: {winner} wins, {outcome.reason}, {len(self.strokes)} strokes"
+
     def __repr__(self) -> str:
-        return f"<PlayedGame {notebook.line_of(self)}>"
+        return f"<PlayedGame {self}>"
 
     def _repr_html_(self) -> str:
-        return notebook.replay_of([self], notebook.line_of(self))
+        return notebook.replay_of([(self.header, self.strokes)], str(self))
 
     def record(self) -> Iterator[str]:
         """The record, line by line."""

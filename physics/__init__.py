@@ -18,8 +18,9 @@ from physics.path_batch import Paths, simulate_paths
 from physics.pockets import Jaw, Pocket
 from physics.rack import rack
 from physics.real_table import RealTable
+from physics.result import Result
 from physics.shot import Shot
-from physics.simulation import Result, resume, simulate
+from physics.simulation import resume, simulate
 from physics.state import TableState
 from physics.status import Status
 from physics.table import Table

@@ -9,7 +9,6 @@ import contextlib
 import functools
 import hashlib
 import importlib
-import importlib.util
 import os
 import sys
 import tempfile
@@ -20,9 +19,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from physics.kept_code import kept_in
 from physics.kernels.layout import K_SIZE, W_SIZE
 
-_LOADING = threading.Lock()
 _THREAD = threading.local()
 
 CACHE_LINE = 64
@@ -89,8 +88,7 @@ def workspace() -> NDArray[np.float64]:
 @functools.cache
 def kernels(jaws: bool = False) -> Any:
     """The module of compiled entry points: for tables with straight mouths, or with jaws."""
-    with _LOADING:  # numba's setting below is the whole process's
-        return _load(_module(jaws))
+    return _load(_module(jaws))
 
 
 def is_compiled(jaws: bool = False) -> bool:
@@ -108,44 +106,15 @@ def _has_compiled(folder: Path | None, module: str) -> bool:
 
 @functools.cache
 def _load(module: str) -> Any:
-    import numba
-
     folder = cache_folder()
-    if not numba.config.DISABLE_JIT:
+    with kept_in(folder):
         say_if_compiled_now(folder, module, "the physics" if module == "entries" else "the physics of tables with jaws")
-    before = numba.config.CACHE_DIR
-    _spare_linear_algebra()
-    try:
-        numba.config.CACHE_DIR = str(folder or "")
         return importlib.import_module(f"physics.kernels.{module}")
-    finally:
-        numba.config.CACHE_DIR = before
-
-
-def _spare_linear_algebra() -> None:
-    """Have numba find scipy without importing it, which takes a third of the time that the kernels take to load.
-
-    numba imports it to know whether there is a BLAS. What compiles linear algebra later imports it then.
-    """
-    from numba.np import linalg
-
-    if "numba.np.arraymath" in sys.modules or not hasattr(linalg, "ensure_blas"):
-        return
-    imports = linalg.ensure_blas
-    linalg.ensure_blas = _find_blas
-    try:
-        importlib.import_module("numba.np.arraymath")
-    finally:
-        linalg.ensure_blas = imports
-
-
-def _find_blas() -> None:
-    """Raise ImportError unless there is one."""
-    if importlib.util.find_spec("scipy") is None:
-        raise ImportError("scipy is not installed")
 
 
 def say_if_compiled_now(folder: Path | None, module: str, what: str) -> None:
     """A line on standard error where loading a module compiles it: nothing of it is in the folder yet."""
-    if not _has_compiled(folder, module):
+    import numba
+
+    if not numba.config.DISABLE_JIT and not _has_compiled(folder, module):
         sys.stderr.write(f"pooliad: compiling {what} for this processor, once; this takes a minute or more ...\n")

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from physics.simulation import Result
+    from physics.result import Result
     from physics.state import TableState
     from physics.table import Table
 

@@ -1,16 +1,17 @@
 """What is on the wire, defined once: pydantic models of requests, answers and problems, and problem codes."""
 
 from protocol.agents import AgentList, AgentRequest, AgentToken, AgentView
+from protocol.allowed import Allowed, Area
 from protocol.answers import MinimalAnswer, ShotsPage, StrokeAnswer
 from protocol.best_strokes import BestStroke, BestStrokes
 from protocol.clocks import ChargeView, ClockLedger, ForfeitRequest, SeatLedger
+from protocol.game_terms import GameTerms
+from protocol.games import GameAnswer, GameSummary
 from protocol.keys import KeyList, KeyView
 from protocol.ladder import Ladder, RungView
 from protocol.matches import (
     AcceptRequest,
     ClientSeedRequest,
-    GameAnswer,
-    GameSummary,
     MatchList,
     MatchRequest,
     MatchStatus,
@@ -44,6 +45,7 @@ from protocol.shots import (
     ShotRequest,
     SubmittedAction,
 )
+from protocol.standings import RatingView, SequentialTestView, StandingsView, StandingView, TournamentStatus
 from protocol.streams import ManyEvent, StreamClocks, StreamConnections, StreamResult, of_many
 from protocol.strokes import StrokeDetail, StrokeView
 from protocol.tables import DescribeRequest, JawView, NoseView, PocketView, TableDescription, TableList
@@ -54,20 +56,15 @@ from protocol.tournaments import (
     EntriesPage,
     EntryView,
     NumberedEntry,
-    RatingView,
-    SequentialTestView,
-    StandingsView,
-    StandingView,
     TournamentGame,
     TournamentList,
     TournamentRequest,
-    TournamentStatus,
     TournamentSummary,
     TournamentView,
     VoidRequest,
 )
 from protocol.turns import TURN_MESSAGE, GameOver, MatchOver, SeedWanted, Turn, TurnMessage
-from protocol.view import Allowed, Area, GameTerms, View
+from protocol.view import View
 
 __all__ = [
     "PROBLEM_JSON",

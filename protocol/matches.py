@@ -1,11 +1,11 @@
-"""Matches: their terms, how they stand, and the games in them."""
+"""Matches: their terms, and how they stand."""
 
 from datetime import datetime
 from typing import Annotated, Literal
 
 from pydantic import ConfigDict, Field
 
-from protocol.outcomes import OutcomeView
+from protocol.games import GameSummary
 from protocol.positions import Position
 from protocol.terms import ClockTerms, NoiseTerms, NoiseView
 from protocol.values import (
@@ -20,7 +20,6 @@ from protocol.values import (
     Seat,
     TableValues,
 )
-from protocol.view import View
 
 _OLYMPIAD = "olympiad"
 
@@ -128,36 +127,6 @@ class AcceptRequest(Request):
 
 
 MatchStatus = Literal["challenged", "opening", "running", "finished", "aborted"]
-GameStatus = Literal["running", "finished", "aborted"]
-
-
-class GameSummary(Message):
-    """A game in a list.
-
-    Attributes:
-        breaker: the seat that broke, or will.
-        commitment: of the match (docs/protocol.md, Commitment).
-        noise_seed: from which the game's noise came, once the game is over; where noise is not told, once the match is
-            over and the tournament that it belongs to.
-    """
-
-    id: Identifier
-    match: Identifier
-    number: Integer
-    status: GameStatus
-    breaker: Seat
-    commitment: Digest
-    noise_seed: Digest | None
-    strokes: Integer
-    outcome: OutcomeView | None
-    started_at: datetime
-    finished_at: datetime | None
-
-
-class GameAnswer(GameSummary):
-    """``GET /v1/games/{id}``: the game as a spectator sees it, or as the caller does who plays in it."""
-
-    view: View
 
 
 class MatchView(Message):

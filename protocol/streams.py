@@ -3,7 +3,7 @@
 Strokes and decisions travel as the record's lines (`referee.record`), word for word.
 """
 
-from protocol.matches import GameStatus
+from protocol.games import GameStatus
 from protocol.outcomes import OutcomeView
 from protocol.terms import ClockView
 from protocol.values import Digest, Flag, Identifier, Integer, Message, Number, Seat

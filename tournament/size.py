@@ -2,8 +2,9 @@
 
 from collections.abc import Iterator
 
+from tournament.choices import Format
 from tournament.pairings import LEGS
-from tournament.spec import Format, Spec
+from tournament.spec import Spec
 
 Phases = tuple[int, ...]
 """Pairs that can be played at the same time, phase after phase: a round that is drawn from results waits for them."""

@@ -6,18 +6,20 @@ A spec is a value: the same spec and the same results give the same pairings, ra
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import replace
-from enum import StrEnum
 from typing import Annotated, Any, Self
 
 from pydantic import GetJsonSchemaHandler, PlainValidator, model_validator
 from pydantic_core import CoreSchema
 
 from referee.play.clock import LEAST_SECONDS, MOST_SECONDS
+from tournament.choices import DEFAULT_TIE_BREAKS, Drawn, Format, Seeding, TieBreak
+from tournament.entrant import Entrant
 from tournament.errors import InvalidSpec
 from tournament.noise_plan import NoisePlan
 from tournament.presets import PRESETS, expand
+from tournament.spec_fields import lots_of, seed_of, table_of
 from tournament.sprt_terms import SprtTerms
-from tournament.validation import Name, Value, integer, items, number, one_of, text, value
+from tournament.validation import Name, Value, integer, items, number, one_of, value
 
 MOST_ENTRANTS, MOST_PAIRS, MOST_ROUNDS = 1000, 100_000, 1000
 MOST_IN_SWISS = 256
@@ -25,121 +27,7 @@ MOST_IN_SWISS = 256
 MOST_IN_EVENT = 250_000
 """Pairs of games in an event: they are planned in memory."""
 MOST_SHOTS = 10**9
-LONGEST_AGENT = 4096
 """Bounds that keep a slip of the pen from asking for a million years of play."""
-
-
-class Format(StrEnum):
-    """Who meets whom."""
-
-    ROUND_ROBIN = "round_robin"
-    """Everybody meets everybody once."""
-    GAUNTLET = "gauntlet"
-    """The challengers, the first entrants of the list, meet all others."""
-    SWISS = "swiss"
-    """A fixed number of rounds; who stands equal meets, nobody twice while that can be avoided."""
-    KNOCKOUT = "knockout"
-    """Who loses a meeting is out."""
-
-
-class TieBreak(StrEnum):
-    """What separates entrants with equal points, in the order of ``Spec.tie_breaks``."""
-
-    DIRECT = "direct"
-    """Points in the games of the tied among themselves."""
-    SONNEBORN_BERGER = "sonneborn_berger"
-    """Points of the opponents, each weighted by the share taken from them."""
-    BUCHHOLZ = "buchholz"
-    """Points of the opponents."""
-    WINS = "wins"
-    """Games won."""
-    SEED = "seed"
-    """The place in the list of entrants."""
-
-
-class Drawn(StrEnum):
-    """Who goes on when a meeting of a knockout is still drawn after the extra pairs."""
-
-    SEED = "seed"
-    """The one seeded higher."""
-    LOT = "lot"
-    """Drawn by lot, from the event's seed."""
-
-
-class Seeding(StrEnum):
-    """Where the order of the entrants comes from."""
-
-    LISTED = "listed"
-    """As listed: the strongest first."""
-    DRAWN = "drawn"
-    """Drawn by lot, from the event's seed."""
-
-
-@value(InvalidSpec, "entrant")
-class Entrant(Value):
-    """Who takes part; a text alone is name and agent in one.
-
-    Attributes:
-        name: unique in the event.
-        agent: what plays under that name, for whoever runs the event: a shipped agent's name, an import path, a
-            command. Left empty, it is the name.
-    """
-
-    name: Name
-    agent: Annotated[str, text(LONGEST_AGENT)] = ""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _short(cls, data: Any) -> Any:
-        return {"name": data} if isinstance(data, str) else data
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """An object, or the short form."""
-        return {"anyOf": [{"type": "string"}, handler(schema)]}
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "agent", self.agent or self.name)
-
-
-_DEFAULT_TIE_BREAKS = {
-    Format.ROUND_ROBIN: (TieBreak.DIRECT, TieBreak.SONNEBORN_BERGER, TieBreak.WINS),
-    Format.GAUNTLET: (TieBreak.DIRECT, TieBreak.WINS),
-    Format.SWISS: (TieBreak.BUCHHOLZ, TieBreak.SONNEBORN_BERGER, TieBreak.WINS),
-    Format.KNOCKOUT: (),
-}
-
-
-def _table(value: Any) -> str | Mapping[str, Any]:
-    """A table's name or its parameters; the physics says whether they make a table."""
-    from physics import Table
-    from physics.table import NAMED
-
-    if isinstance(value, str) and value in NAMED:
-        return value
-    if not isinstance(value, Mapping):
-        raise InvalidSpec("", value, f"must be {', '.join(NAMED)} or a table's parameters")
-    return Table.from_dict(value).to_dict()
-
-
-def _seed(value: Any) -> int | str | None:
-    if isinstance(value, str):
-        return _secret(value, "64 lower-case hexadecimal digits, or an integer")
-    if isinstance(value, bool) or not isinstance(value, int | None) or not 0 <= (value or 0) < 2**63:
-        raise InvalidSpec("", value, f"must be an integer from 0 to {2**63 - 1}, or 64 hexadecimal digits")
-    return value
-
-
-def _lots(value: Any) -> str | None:
-    return None if value is None else _secret(value, "64 lower-case hexadecimal digits")
-
-
-def _secret(value: Any, allowed: str) -> str:
-    """A secret in writing; the error does not repeat it."""
-    if not isinstance(value, str) or len(value) != 64 or not set(value) <= set("0123456789abcdef"):
-        shown = f"<{len(value)} letters>" if isinstance(value, str) else type(value).__name__
-        raise InvalidSpec("", shown, f"must be {allowed}")
-    return value
 
 
 @value(InvalidSpec, "event", is_part=False)
@@ -190,10 +78,10 @@ class Spec(Value):
     noise: NoisePlan = NoisePlan()
     seconds: Annotated[float, number(LEAST_SECONDS, MOST_SECONDS)] | None = 300.0
     simulated_shots: Annotated[int, integer(0, MOST_SHOTS)] | None = None
-    table: Annotated[str | Mapping[str, Any], PlainValidator(_table)] = "olympiad"
-    seed: Annotated[int | str | None, PlainValidator(_seed)] = None
+    table: Annotated[str | Mapping[str, Any], PlainValidator(table_of)] = "olympiad"
+    seed: Annotated[int | str | None, PlainValidator(seed_of)] = None
     sprt: SprtTerms | None = None
-    lots: Annotated[str | None, PlainValidator(_lots)] = None
+    lots: Annotated[str | None, PlainValidator(lots_of)] = None
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -218,7 +106,7 @@ class Spec(Value):
         return values
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "tie_breaks", self.tie_breaks or _DEFAULT_TIE_BREAKS[self.format])
+        object.__setattr__(self, "tie_breaks", self.tie_breaks or DEFAULT_TIE_BREAKS[self.format])
         _check_together(self)
 
     @property

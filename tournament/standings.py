@@ -4,9 +4,9 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from tournament.choices import Format, TieBreak
 from tournament.formats.order import seeded
 from tournament.results import GameResult
-from tournament.spec import Format, TieBreak
 from tournament.tournament import Tournament
 
 

@@ -8,12 +8,13 @@ from types import MappingProxyType
 from typing import Any, Self
 
 from referee.game import EndReason
+from tournament.choices import Format
 from tournament.errors import InvalidResult
 from tournament.formats import planner
 from tournament.pairings import LEGS, Bye, Due, Pair, Plan
 from tournament.results import GameResult
 from tournament.scores import Key, Meeting, counting, meetings
-from tournament.spec import MOST_ROUNDS, Format, Spec
+from tournament.spec import MOST_ROUNDS, Spec
 from tournament.statistics.sprt import SprtState, sprt
 
 

@@ -13,7 +13,7 @@ from client.agents.registry import SHIPPED, STDIO
 from client.arena.directory import EventError
 from physics.errors import FieldError, shown
 from referee.play.clock import MOST_SECONDS
-from tournament.spec import LONGEST_AGENT
+from tournament.entrant import LONGEST_AGENT
 from tournament.validation import Flag, Must, Value, above, integer, text, value
 
 ANSWER_SECONDS = 60.0

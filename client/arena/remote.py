@@ -14,8 +14,8 @@ from client.arena.executors import InProcess
 from client.arena.hosting import Hosting, Kind
 from client.arena.preflight import require_startable
 from client.arena.process import ProcessSeat
-from client.arena.resumable_game import LONGEST_REPORT
 from client.arena.runner import Observer
+from client.arena.taken_up import LONGEST_REPORT
 from client.arena.terms import Terms
 from client.errors import ApiError, MatchUnfinished, NameTaken, TournamentUnfinished
 from client.http import Pooliad

@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from client.arena.game_task import GameTask
 from client.arena.hosting import Hosting
-from client.arena.resumable_game import GameTask, play
+from client.arena.resumable_game import play
 from client.arena.seats import seat_of
 from client.session import Session
 from tournament import GameResult

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any, Self
 
 from client.arena.directory import EventError
+from client.arena.game_task import GameTask
 from client.arena.hosting import Hosting
-from client.arena.resumable_game import GameTask
 from client.arena.tasks import PairTask
 from physics.errors import shown
 from physics.table_file import ENDING, read_table

@@ -9,12 +9,12 @@ from client.cli.check import check
 from client.cli.explain import explain
 from client.cli.output import USAGE, Json, emit, fail, say
 from client.cli.players import load_player
+from client.cli.position import read_position
 from client.cli.tables import TableCommand
 
 if TYPE_CHECKING:
     from client.agents.registry import Player
     from protocol import MatchOver
-    from referee import Game
 
 Name = Annotated[str, typer.Argument(help="random, greedy, search:seconds=0.3, module:Class, or stdio:COMMAND.")]
 Url = Annotated[str, typer.Option(envvar="POOLIAD_URL", help="Address of the server.")]
@@ -99,20 +99,6 @@ def _ready(name: str, seed: int | None) -> "Player":
     if not name.startswith(STDIO):
         prepare(Table.olympiad())
     return player
-
-
-def read_position(file: Path) -> "Game":
-    """The position in a file; leaves the command when it is none."""
-    from pydantic import ValidationError
-
-    from protocol import Position
-
-    try:
-        return Position.model_validate_json(file.read_bytes()).to_game()
-    except OSError as error:
-        fail(f"{file} cannot be read: {error}", USAGE)
-    except (ValidationError, ValueError) as error:
-        fail(f"{file} is no position: {error}", USAGE)
 
 
 def _report(over: "MatchOver", as_json: bool) -> None:

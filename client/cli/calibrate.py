@@ -11,7 +11,7 @@ from client.cli.tables import NAMES, load_table
 
 if TYPE_CHECKING:
     from calibration import Calibration, ErrorModel, FittedLaw
-    from calibration.staged import Observer
+    from calibration.matching import Observer
 
 
 def calibrate(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from client.cli.output import USAGE, Json, emit, fail, say
+from client.cli.position import read_position
 from client.cli.tables import NAMES, load_table
 
 if TYPE_CHECKING:
@@ -55,7 +56,6 @@ def explain(
 
 def _situation(file: Path, shot: int | None, table: str) -> "tuple[EightBall, Game, NoiseModel, Action | None]":
     """Referee, game, noise, and the action played there if it is known. A file without a position ends the command."""
-    from client.cli.agent import read_position
     from referee import EightBall
     from referee.play import NoiseModel
 

@@ -10,8 +10,9 @@ from client.adapters.stdio import LOGS
 from client.arena.journal import Journal, JournalEntry
 from client.cli.processes import Child
 from client.cli.reports import REPORTS
+from client.compliance.exchange import Exchange
 from client.compliance.faults import Finding, FindingName, in_traffic
-from client.compliance.proxy import Exchange, Proxy
+from client.compliance.proxy import Proxy
 from client.compliance.situations import SITUATIONS, Situation, Twist
 from client.errors import ApiError
 from client.http import Pooliad

@@ -6,7 +6,8 @@ from enum import StrEnum
 from typing import Any
 from urllib.parse import parse_qsl
 
-from client.compliance.proxy import RETRY_AFTER, Exchange
+from client.compliance.answers import RETRY_AFTER
+from client.compliance.exchange import Exchange
 from client.compliance.situations import Situation, Twist
 
 MOST_POLLS = 5

@@ -1,59 +1,20 @@
 """A proxy between an agent and a server: it keeps what was said, and does what the situation's twist says."""
 
-import json
 import threading
 import time
-from dataclasses import dataclass
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
 import httpx2
 
+from client.compliance.answers import problem_of, rendered, with_new_fields
 from client.compliance.bodies import FRAMING, read_body
+from client.compliance.exchange import ACTIONS, Exchange, code_of
 from client.compliance.situations import Twist
-from protocol import PROBLEM_JSON, Problem, ProblemCode
+from protocol import Problem, ProblemCode
 
 PATIENCE = 90.0
 """Seconds the server may take; a long poll waits up to sixty."""
-RETRY_AFTER = 1
-"""Seconds of patience that the twist `draining` asks for."""
-ACTIONS = ("shots", "decisions", "concede")
-
-
-@dataclass(frozen=True, slots=True)
-class Exchange:
-    """A request and its answer, as the agent saw them.
-
-    Attributes:
-        at: s, `time.monotonic`, when the request was complete. done: when it was answered.
-        method, path, query, headers, body: of the request; header names in lower case.
-        status: of the answer; 0 when the connection was cut.
-        code: of the problem, if it was one. answer: the body.
-        twisted: whether the answer is the proxy's and not the server's.
-    """
-
-    at: float
-    done: float
-    method: str
-    path: str
-    query: str
-    headers: dict[str, str]
-    body: bytes
-    status: int
-    code: str | None
-    answer: bytes
-    twisted: bool
-
-    @property
-    def is_action(self) -> bool:
-        """Whether it was an action in a game."""
-        return self.method == "POST" and self.path.rpartition("/")[2] in ACTIONS
-
-    @property
-    def game(self) -> str:
-        """The game it was about; empty for none."""
-        parts = self.path.split("/")
-        return parts[3] if len(parts) > 3 and parts[2] == "games" else ""
 
 
 class Proxy:
@@ -97,11 +58,11 @@ class Proxy:
         """What the agent is answered; None cuts the connection."""
         at, twist = time.monotonic(), self._due(method, path)
         if twist in (Twist.DRAINING, Twist.REFUSED):
-            response: httpx2.Response | None = _problem(twist, path)
+            response: httpx2.Response | None = problem_of(twist, path)
         else:
             response = self._forward(method, path, headers, body)
             if twist is Twist.NEW_FIELDS and response is not None:
-                response = _with_new_fields(response)
+                response = with_new_fields(response)
         cut = twist in (Twist.LOST_REPLY, Twist.RESET)
         self._keep(at, method, path, headers, body, None if cut else response, twist is not Twist.NONE)
         return None if cut else response
@@ -109,7 +70,7 @@ class Proxy:
     def refuse(self, method: str, path: str, headers: dict[str, str], reason: str) -> httpx2.Response:
         """What the agent is answered when its request cannot be read."""
         problem = Problem.of(ProblemCode.BAD_HEADER, reason, instance=path)
-        response = _rendered(problem, {})
+        response = rendered(problem, {})
         self._keep(time.monotonic(), method, path, headers, b"", response, twisted=False)
         return response
 
@@ -155,7 +116,7 @@ class Proxy:
             headers=headers,
             body=body,
             status=status,
-            code=_code(status, answer),
+            code=code_of(status, answer),
             answer=answer,
             twisted=twisted,
         )
@@ -220,43 +181,3 @@ class Proxy:
                 """The proxy keeps its own account."""
 
         return Handler
-
-
-def _problem(twist: Twist, path: str) -> httpx2.Response:
-    """What the proxy says in the server's place."""
-    code, words = ProblemCode.DRAINING, "the server is shutting down"
-    headers = {"Retry-After": str(RETRY_AFTER)}
-    if twist is Twist.REFUSED:
-        code, words = ProblemCode.REFUSED, "refused to see what happens; try again"
-        headers = {}
-    return _rendered(Problem.of(code, words, instance=path), headers)
-
-
-def _rendered(problem: Problem, headers: dict[str, str]) -> httpx2.Response:
-    content = problem.model_dump_json(exclude_unset=True).encode()
-    return httpx2.Response(problem.status, content=content, headers={"Content-Type": PROBLEM_JSON} | headers)
-
-
-def _with_new_fields(response: httpx2.Response) -> httpx2.Response:
-    """The answer with a field that no agent knows, at its top and in its view."""
-    try:
-        content = json.loads(response.content)
-    except ValueError:
-        return response
-    if not isinstance(content, dict):
-        return response
-    for part in (content, content.get("view")):
-        if isinstance(part, dict):
-            part["introduced_later"] = {"nested": [1, "two", None]}
-    headers = {name: value for name, value in response.headers.items() if name != "content-length"}
-    return httpx2.Response(response.status_code, content=json.dumps(content).encode(), headers=headers)
-
-
-def _code(status: int, answer: bytes) -> str | None:
-    """The problem's code in an answer that is none of success."""
-    if status < 400:
-        return None
-    try:
-        return str(json.loads(answer)["code"])
-    except (ValueError, KeyError, TypeError):
-        return None

@@ -8,7 +8,8 @@ from pettingzoo import AECEnv
 
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector
 from client.learn.frames import rendered
-from client.learn.games import OneGame, referee_of
+from client.learn.games import referee_of
+from client.learn.one_game import OneGame
 from physics import Table
 from referee import Game, NoiseModel
 

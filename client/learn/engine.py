@@ -2,7 +2,6 @@
 
 import functools
 import importlib
-import threading
 from pathlib import Path
 from typing import Any
 
@@ -15,30 +14,17 @@ from client.learn.compiled import layout as to
 from physics import Table
 from physics.constants import PLACEMENT_TOLERANCE
 from physics.engine import cache_folder, digest_of, say_if_compiled_now
-
-_LOADING = threading.Lock()
+from physics.kept_code import kept_in
 
 
 @functools.cache
 def step() -> Any:
-    """The module of the compiled step, ready to be called; kept beside the physics' own compiled kernels."""
-    with _LOADING:  # numba's setting below is the whole process's
-        return _load()
-
-
-@functools.cache
-def _load() -> Any:
-    import numba
-
-    folder, before = cache_folder(), numba.config.CACHE_DIR
+    """The entries of the compiled step, ready to be called; kept beside the physics' own compiled kernels."""
+    folder = cache_folder()
     own = None if folder is None else folder / f"learn-{digest_of(Path(__file__).parent / 'compiled')[:16]}"
-    if not numba.config.DISABLE_JIT:
-        say_if_compiled_now(own, "kernels", "the learning environments")
-    try:
-        numba.config.CACHE_DIR = str(own or "")
-        return importlib.import_module("client.learn.compiled.kernels")
-    finally:
-        numba.config.CACHE_DIR = before
+    with kept_in(own):
+        say_if_compiled_now(own, "aiming", "the learning environments")  # which takes longest
+        return importlib.import_module("client.learn.compiled.entries")
 
 
 def table_row(table: Table) -> NDArray[np.float64]:

@@ -5,9 +5,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, TURNS, Floats, Integers, Vector
+from client.learn.codec import OBSERVATION_SIZE, TURNS, Floats, Integers, Vector
 from client.learn.compiled import layout as to
 from client.learn.engine import lattice_of, step, table_row
+from client.learn.rows import NEW, game_of, row_of
 from physics import Facts, Shot, Table, TableState, simulate_batch
 from physics.constants import N_BALLS
 from physics.engine import workspace
@@ -15,10 +16,7 @@ from physics.facts import FACTS_WORDS
 from physics.parameters import parameters
 from physics.rack import jitter_of
 from physics.shot import FIELDS
-from referee import Action, Decision, EightBall, Game, NoiseModel, Outcome
-from referee.game import RuleId
-from referee.rules.breaks import OFFERED
-from referee.rules.calls import assign
+from referee import Action, Decision, EightBall, Game, NoiseModel
 from referee.rules.rack import places as triangle_of
 
 RACK_TRIES = 3
@@ -60,7 +58,7 @@ class Games:
         if self._start is not None:
             self.places[rows], self.state[rows] = self._start
             return
-        self.state[rows] = _NEW
+        self.state[rows] = NEW
         self.state[rows, to.TURN] = self.state[rows, to.BREAKER] = chance.integers(2, size=len(rows))
         self._rack(rows, chance)
 
@@ -118,31 +116,7 @@ class Games:
 
     def game(self, row: int) -> Game:
         """One of the games, as the referee knows it."""
-        state = self.state[row].tolist()
-        here = bool(self.places[row, 0, 0] == self.places[row, 0, 0])
-        choice = None if state[to.CHOICE] == to.NO_CHOICE else to.CHOICES[state[to.CHOICE]]
-        outcome = None
-        if state[to.PHASE] == to.OVER:
-            winner, reason = state[to.WINNER], state[to.REASON]
-            outcome = Outcome(
-                None if winner == to.NOBODY else winner, to.REASONS[reason], to.ENDS[state[to.DECIDED_BY]]
-            )
-        return Game(
-            state=TableState.trusted(self.places[row].copy()),
-            phase=to.PHASES[state[to.PHASE]],
-            turn=state[to.TURN],
-            breaker=state[to.BREAKER],
-            groups=None if state[to.GROUP] == to.OPEN else assign(0, to.GROUPS[state[to.GROUP]]),
-            cue_ball_in_hand=to.AREAS[state[to.AREA]],
-            decisions=() if choice is None else _offered(choice, here),
-            choice=choice,
-            stroke=state[to.STROKE],
-            rack=state[to.RACK],
-            visit_strokes=state[to.VISIT_STROKES],
-            dry_visits=state[to.DRY_VISITS],
-            replays=state[to.REPLAYS],
-            outcome=outcome,
-        )
+        return game_of(self.places[row], self.state[row])
 
     def _struck(self, rows: Integers, before: Floats, shots: Floats, calls: Integers) -> None:
         """Simulate strokes and rule on them."""
@@ -184,72 +158,6 @@ class Games:
         self.state[rows, to.PHASE], self.state[rows, to.AREA] = to.BREAK, to.KITCHEN
 
 
-class OneGame:
-    """`Games` of one, by plain values.
-
-    Args:
-        rules, noise, start: as for `Games`.
-    """
-
-    def __init__(self, rules: EightBall, noise: NoiseModel, start: Game | None) -> None:
-        self._games = Games(rules, noise, 1, start=start)
-
-    def begin(self, chance: np.random.Generator) -> None:
-        """A new game."""
-        self._games.begin(_ONLY, chance)
-
-    def observed(self, seat: int) -> Vector:
-        """`codec.observe`."""
-        seen: Vector = self._games.observed(_ONLY, np.array([seat]))[0]
-        return seen
-
-    def play(self, action: NDArray[np.floating], chance: np.random.Generator) -> None:
-        """One action of the player in turn.
-
-        Raises:
-            ValueError: another shape, or a number that is none.
-        """
-        vector = np.asarray(action)
-        if vector.shape != (ACTION_SIZE,):
-            raise ValueError(f"an action has shape {vector.shape}; it must be ({ACTION_SIZE},)")
-        self._games.play(_ONLY, vector[None], chance)
-
-    def reward(self, seat: int) -> float:
-        """See `Games.rewards`."""
-        return float(self._games.rewards(np.array([seat]))[0])
-
-    def lead(self, seat: int) -> float:
-        """See `Games.leads`."""
-        return float(self._games.leads(np.array([seat]))[0])
-
-    def game(self) -> Game:
-        """As the referee knows it."""
-        return self._games.game(0)
-
-    @property
-    def is_over(self) -> bool:
-        """Whether it has ended."""
-        return bool(self._games.state[0, to.PHASE] == to.OVER)
-
-    @property
-    def turn(self) -> int:
-        """The seat that acts."""
-        return int(self._games.state[0, to.TURN])
-
-    @property
-    def strokes(self) -> int:
-        """Strokes played."""
-        return int(self._games.state[0, to.STROKE])
-
-    @property
-    def reason(self) -> str:
-        """Why it is over; nothing while it goes on."""
-        return to.REASONS[int(self._games.state[0, to.REASON])].value if self.is_over else ""
-
-
-_ONLY = np.zeros(1, np.int64)
-
-
 def checked_shaping(shaping: float) -> float:
     """The weight of a step's gain; raises ValueError unless it is a number from 0 on."""
     if isinstance(shaping, bool) or not isinstance(shaping, int | float) or not 0.0 <= shaping < math.inf:
@@ -262,39 +170,7 @@ def referee_of(table: Table | None) -> EightBall:
     return EightBall(table or Table.olympiad())
 
 
-def _offered(choice: str, here: bool) -> tuple[Decision, ...]:
-    """The decisions that a choice offers; `here`: whether the cue ball is on the table, to be accepted there."""
-    return tuple(
-        [each for each in OFFERED[choice] if here or choice != RuleId.R12a or each is not Decision.ACCEPT_TABLE]
-    )
-
-
 def _as_submitted(before: Floats, shot: Floats) -> Action:
     """A break as a player would submit it; its noise does not matter to the referee."""
     x, y = before[0].tolist()
     return Action(shot=Shot(*shot.tolist()), cue_ball=(x, y))
-
-
-def row_of(game: Game) -> Integers:
-    """A game's row of `Games.state`, its balls left aside."""
-    outcome = game.outcome
-    values = np.empty(to.WIDTH, np.int64)
-    values[to.PHASE], values[to.AREA] = to.PHASES.index(game.phase), to.AREAS.index(game.cue_ball_in_hand)
-    values[[to.TURN, to.BREAKER, to.STROKE, to.RACK]] = game.turn, game.breaker, game.stroke, game.rack
-    values[to.GROUP] = to.OPEN if game.groups is None else to.GROUPS.index(game.groups[0])
-    values[to.CHOICE] = to.NO_CHOICE if game.choice is None else [str(each) for each in to.CHOICES].index(game.choice)
-    values[[to.VISIT_STROKES, to.DRY_VISITS, to.REPLAYS]] = game.visit_strokes, game.dry_visits, game.replays
-    values[[to.WINNER, to.REASON, to.DECIDED_BY]] = to.NOBODY, 0, 0
-    if outcome is not None:
-        reason = to.REASONS.index(outcome.reason)
-        values[[to.WINNER, to.REASON, to.DECIDED_BY]] = (
-            to.NOBODY if outcome.winner is None else outcome.winner,
-            reason,
-            reason,
-        )
-    return values
-
-
-_NEW = np.zeros(to.WIDTH, np.int64)
-_NEW[[to.GROUP, to.CHOICE, to.WINNER]] = to.OPEN, to.NO_CHOICE, to.NOBODY
-"""A game before its first rack."""

@@ -9,7 +9,8 @@ from gymnasium.spaces import Box
 
 from client.learn.codec import ACTION_SIZE, OBSERVATION_SIZE, Vector
 from client.learn.frames import Window, pixels, rendered
-from client.learn.games import OneGame, checked_shaping, referee_of
+from client.learn.games import checked_shaping, referee_of
+from client.learn.one_game import OneGame
 from physics import Table
 from referee import Game, NoiseModel
 

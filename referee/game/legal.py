@@ -9,6 +9,7 @@ from referee.game.game import CueBallArea, Game, Group, Phase
 
 EIGHT = 8
 _MEMBERS = {Group.SOLIDS: tuple(range(1, 8)), Group.STRIPES: tuple(range(9, 16))}
+_OWN = {group: frozenset(balls) for group, balls in _MEMBERS.items()} | {None: frozenset().union(*_MEMBERS.values())}
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,12 +60,8 @@ def members(group: Group) -> tuple[int, ...]:
 
 def remaining(game: Game, seat: int) -> tuple[int, ...]:
     """The balls of a seat's group that are on the table; on an open table all object balls but the 8."""
-    group = game.group_of(seat)
-    on_table = game.state.balls
-    if group is None:
-        return tuple([ball for ball in on_table if ball not in (0, EIGHT)])
-    own = _MEMBERS[group]
-    return tuple([ball for ball in on_table if ball in own])
+    own = _OWN[game.group_of(seat)]
+    return tuple([ball for ball in game.state.balls if ball in own])
 
 
 def callable_balls(game: Game) -> tuple[int, ...]:

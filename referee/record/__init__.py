@@ -10,8 +10,10 @@ from referee.record.difference import Difference
 from referee.record.engine import Engine, this_engine
 from referee.record.lines import Header, end_entry, record_lines, stroke_entry
 from referee.record.reading import InvalidRecord, Record, read_record
-from referee.record.signing import PublicKey, Seal, SealState, SigningKey, signed_seal, unsigned_seal
-from referee.record.verification import RecordVerdict, Verification, verify_record
+from referee.record.signing import Seal, SealState, signed_seal, unsigned_seal
+from referee.record.signing_keys import PublicKey, SigningKey
+from referee.record.verdict import RecordVerdict, Verification
+from referee.record.verification import verify_record
 
 __all__ = [
     "FORMAT",

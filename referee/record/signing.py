@@ -1,96 +1,20 @@
 """The seal, a record's last line: an Ed25519 signature over the whole chain, or the statement that there is none.
 
 What is signed is the seal itself without its signature, in canonical form: with the digest of the line before
-it, all lines are covered; with the key's id and the time, those are, too. ``cryptography`` is loaded when
-something is signed or checked, never before.
+it, all lines are covered; with the key's id and the time, those are, too.
 """
 
-import hashlib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, Final, Self
+from typing import Any, Final
 
 from referee.record.canonical import canonical
 from referee.record.chain import PREVIOUS
+from referee.record.signing_keys import PublicKey, SigningKey, bytes_of_hex
 
 ALGORITHM: Final = "Ed25519"
-KEY_BYTES: Final = 32
 SIGNATURE_BYTES: Final = 64
-
-
-@dataclass(frozen=True, slots=True)
-class PublicKey:
-    """A key that signatures are checked with.
-
-    Attributes:
-        value: 32 bytes, as RFC 8032 encodes a public key.
-        valid_from, valid_until: RFC 3339 in UTC with seconds; None where there is no bound.
-    """
-
-    value: bytes
-    valid_from: str | None = None
-    valid_until: str | None = None
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.value, bytes) or len(self.value) != KEY_BYTES:
-            raise ValueError(f"public key = {self.value!r}: must be {KEY_BYTES} bytes")
-
-    @property
-    def id(self) -> str:
-        """The first 32 hexadecimal digits of the SHA-256 of the key: nobody can give it to another key."""
-        return hashlib.sha256(self.value).hexdigest()[:32]
-
-    @classmethod
-    def from_hex(cls, text: str) -> Self:
-        """Read 64 hexadecimal digits."""
-        return cls(_bytes("public key", text, KEY_BYTES))
-
-    def was_valid_at(self, time: str) -> bool:
-        """Whether the key was in use then; times of this form are in the order of their texts."""
-        return (self.valid_from or time) <= time <= (self.valid_until or time)
-
-    def verifies(self, signature: bytes, message: bytes) -> bool:
-        """Whether the key's owner has signed this."""
-        from cryptography.exceptions import InvalidSignature
-        from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
-
-        try:
-            Ed25519PublicKey.from_public_bytes(self.value).verify(signature, message)
-        except (InvalidSignature, ValueError):
-            return False
-        return True
-
-
-@dataclass(frozen=True, slots=True)
-class SigningKey:
-    """The private half. It shows in no ``repr``.
-
-    Attributes:
-        value: 32 bytes, as RFC 8032 takes a private key.
-    """
-
-    value: bytes = field(repr=False)
-
-    @classmethod
-    def fresh(cls) -> Self:
-        """A new key from the operating system."""
-        from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
-
-        return cls(Ed25519PrivateKey.generate().private_bytes_raw())
-
-    @property
-    def public(self) -> PublicKey:
-        """What may be published."""
-        from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
-
-        return PublicKey(Ed25519PrivateKey.from_private_bytes(self.value).public_key().public_bytes_raw())
-
-    def sign(self, message: bytes) -> bytes:
-        """The signature, 64 bytes."""
-        from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
-
-        return Ed25519PrivateKey.from_private_bytes(self.value).sign(message)
 
 
 def unsigned_seal() -> dict[str, Any]:
@@ -165,7 +89,7 @@ def check_seal(seal: Mapping[str, Any], keys: Iterable[PublicKey] | None) -> Sea
     if seal["algorithm"] != ALGORITHM:
         raise ValueError(f"algorithm = {seal['algorithm']!r}: must be {ALGORITHM!r}")
     named, signed_at = (_text(name, seal[name]) for name in ("key", "signed_at"))
-    signature = _bytes("signature", seal["signature"], SIGNATURE_BYTES)
+    signature = bytes_of_hex("signature", seal["signature"], SIGNATURE_BYTES)
     return Seal(SealState.UNCHECKED, named) if keys is None else _checked(seal, named, signed_at, signature, [*keys])
 
 
@@ -198,15 +122,4 @@ def _require_keys(seal: Mapping[str, Any], wanted: Mapping[str, Any]) -> None:
 def _text(name: str, value: Any) -> str:
     if not isinstance(value, str):
         raise ValueError(f"{name} = {value!r}: must be a string")
-    return value
-
-
-def _bytes(name: str, text: Any, size: int) -> bytes:
-    """So many bytes from lower-case hexadecimal digits and nothing else."""
-    try:
-        value = bytes.fromhex(text)
-    except (TypeError, ValueError):
-        value = b""
-    if len(value) != size or value.hex() != text:
-        raise ValueError(f"{name} = {str(text)[:80]!r}: must be {2 * size} lower-case hexadecimal digits")
     return value

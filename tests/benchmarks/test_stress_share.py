@@ -7,7 +7,18 @@ import numpy as np
 import pytest
 
 import physics
-from benchmarks import everything, hostile, hostile_jaws, pieces, smallest, soundness, stress, unfiltered, variants
+from benchmarks import (
+    everything,
+    hostile,
+    hostile_jaws,
+    hostile_scenes,
+    pieces,
+    smallest,
+    soundness,
+    stress,
+    unfiltered,
+    variants,
+)
 from referee import Limits
 
 SEED = 5
@@ -91,9 +102,11 @@ def test_hostile_shots_end_at_rest_inside_the_table_without_overlap(kind):
         assert tally.most_events < Limits().events, "a stroke of a game would be ended"
 
 
-@pytest.mark.parametrize("kind", stress.CLASSES)
+@pytest.mark.parametrize("kind", hostile_scenes.CLASSES)
 def test_the_same_seed_draws_the_same_scenes(kind):
-    for one, two in zip(stress.scene_of(kind, 3, 50)[1:], stress.scene_of(kind, 3, 50)[1:], strict=True):
+    for one, two in zip(
+        hostile_scenes.scene_of(kind, 3, 50)[1:], hostile_scenes.scene_of(kind, 3, 50)[1:], strict=True
+    ):
         assert one.tobytes() == two.tobytes()
 
 
@@ -102,7 +115,7 @@ def test_the_same_seed_draws_the_same_scenes(kind):
 )
 def test_touching_classes_touch(kind):
     """At least a fifth of the shots start with balls that touch another or a cushion: the classes are what they say."""
-    table, states, _ = stress.scene_of(kind, SEED, 300)
+    table, states, _ = hostile_scenes.scene_of(kind, SEED, 300)
     rows, columns = np.triu_indices(16, 1)
     gap = np.linalg.norm(states[:, rows] - states[:, columns], axis=2) - 2 * table.ball_radius
     side = np.abs(states[..., 0] - table.width / 2) - (table.width / 2 - table.ball_radius)

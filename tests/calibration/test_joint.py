@@ -5,8 +5,9 @@ import pytest
 
 from benchmarks.recovery import OLYMPIAD
 from calibration import calibrate
-from calibration.joint import JointFit, Member
+from calibration.joint import JointFit
 from calibration.parameters import fitted_parameters
+from calibration.reduced import Member
 from calibration.shot_fit import fit_shot
 from calibration.shot_model import LEVEL, ShotModel, elevation, elevation_nuisance, elevation_slope
 from calibration.synthetic import Camera, seen

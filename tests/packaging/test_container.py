@@ -193,6 +193,7 @@ def test_the_health_check_answers(image, url):
     assert image.python.run([word.replace("healthz", "nothing") for word in check]).returncode != 0
 
 
+@pytest.mark.slow
 def test_the_server_compiles_nothing_any_more(image, url):
     """The cache was warmed at build; every way into the kernels finds it."""
     before = image.compiled()
@@ -207,6 +208,7 @@ def test_the_server_compiles_nothing_any_more(image, url):
     assert image.compiled() == before
 
 
+@pytest.mark.slow
 def test_the_kernels_are_for_no_processor_in_particular(image):
     """Built on one machine, the image runs on another: numba looks its cache up by processor and features."""
     indices = [Path(name) for name in image.compiled() if name.endswith(".nbi")]
@@ -217,6 +219,7 @@ def test_the_kernels_are_for_no_processor_in_particular(image):
         assert b"+avx" not in content
 
 
+@pytest.mark.slow
 def test_games_are_kept_in_the_volume(image, url):
     ask(f"{url}/readyz")
     assert only("VOLUME") == "/data"

@@ -174,7 +174,7 @@ def test_new_tables_refuse_collisions():
 
 
 def ranges():
-    from physics.real_table import RANGES
+    from physics.specifications import RANGES
 
     return sorted(RANGES.items())
 

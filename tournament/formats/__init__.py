@@ -7,6 +7,7 @@ more results, it says the same about what was certain before, and more.
 from collections.abc import Mapping
 from typing import Protocol
 
+from tournament.choices import Format
 from tournament.formats.gauntlet import plan_gauntlet
 from tournament.formats.knockout import plan_knockout
 from tournament.formats.round_robin import plan_round_robin
@@ -14,7 +15,7 @@ from tournament.formats.swiss import plan_swiss
 from tournament.pairings import Plan
 from tournament.results import GameResult
 from tournament.scores import Key
-from tournament.spec import Format, Spec
+from tournament.spec import Spec
 
 
 class Planner(Protocol):

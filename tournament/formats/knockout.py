@@ -3,12 +3,13 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from tournament.choices import Drawn
 from tournament.formats.order import Meet, pair_of, seeded
 from tournament.pairings import LEGS, Bye, Pair, Plan
 from tournament.results import GameResult
 from tournament.scores import Key, meetings
 from tournament.seeds import lot
-from tournament.spec import Drawn, Spec
+from tournament.spec import Spec
 
 
 @dataclass(slots=True)

@@ -2,9 +2,10 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 
+from tournament.choices import Seeding
 from tournament.pairings import Pair
 from tournament.seeds import level, lot
-from tournament.spec import Seeding, Spec
+from tournament.spec import Spec
 
 Meet = tuple[int, int, str, str]
 """Round, number of the meeting in it, and the two who meet."""

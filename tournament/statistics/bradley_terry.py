@@ -18,13 +18,13 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tournament.results import GameResult
-from tournament.statistics.student import sidak_quantile, student_cdf
+from tournament.statistics.ratings import Floats, Rating, Ratings, gaps
+from tournament.statistics.student import sidak_quantile
 
 CONFIDENCE = 0.95
 ELO_PER_UNIT = 400.0 / math.log(10.0)
@@ -36,67 +36,7 @@ PRIOR_VARIANCE = 2.0
 if four pairs of even games had shown exactly that.
 """
 
-Floats = NDArray[np.float64]
-
 _ROUNDS = 100
-
-
-@dataclass(frozen=True, slots=True)
-class Rating:
-    """An entrant's rating, in Elo points above the mean of the table.
-
-    Attributes:
-        name: of the entrant; elo: rating; games: counted.
-        low, high: marginal interval of 95 % confidence: for this rating by itself.
-        simultaneous_low, simultaneous_high: intervals that hold all true ratings of the table at once with 95 %.
-        best_rank, worst_rank: intervals that hold all true ranks of the table at once with 95 %; 1 is the strongest.
-    """
-
-    name: str
-    elo: float
-    low: float
-    high: float
-    games: int
-    simultaneous_low: float
-    simultaneous_high: float
-    best_rank: int
-    worst_rank: int
-
-    def to_dict(self) -> dict[str, Any]:
-        """JSON form."""
-        return {name: getattr(self, name) for name in self.__slots__}
-
-
-@dataclass(frozen=True)
-class Ratings:
-    """All ratings of a table.
-
-    Attributes:
-        table: by rating, the highest first.
-        names: in the order of ``elo`` and ``covariance``.
-        elo: (n,), mean 0. covariance: (n, n), Elo^2.
-        dispersion: variance of a pair's points relative to two independent games.
-        bootstrap_dispersion: the same from a bootstrap over pairs, as a check; None for fewer pairs than entrants.
-        dof: degrees of freedom of the intervals.
-    """
-
-    table: tuple[Rating, ...]
-    names: tuple[str, ...]
-    elo: Floats
-    covariance: Floats
-    dispersion: float
-    bootstrap_dispersion: float | None
-    dof: float
-
-    def superiority(self, one: str, other: str) -> float:
-        """Likelihood that ``one`` is stronger than ``other``; ``ValueError`` for an unknown name."""
-        i, j = self.names.index(one), self.names.index(other)
-        return float(self.superiorities()[i, j])
-
-    def superiorities(self) -> Floats:
-        """(n, n): likelihood that the entrant of the row is stronger than that of the column; 1/2 on the diagonal."""
-        likelihoods: Floats = student_cdf(_gaps(self.elo, self.covariance), self.dof)
-        return likelihoods
 
 
 @dataclass(frozen=True, slots=True)
@@ -232,7 +172,7 @@ def _ratings(names: tuple[str, ...], games: Sequence[GameResult], pairs: _Pairs,
     centre = np.eye(n) - 1.0 / n if n else np.eye(0)
     covariance = dispersion * ELO_PER_UNIT**2 * centre @ np.linalg.inv(_information(pairs, r)) @ centre
     elo = ELO_PER_UNIT * (r - r.mean()) if n else r
-    apart = _gaps(elo, covariance) > sidak_quantile(CONFIDENCE, n * (n - 1) // 2, dof)
+    apart = gaps(elo, covariance) > sidak_quantile(CONFIDENCE, n * (n - 1) // 2, dof)
     played = Counter(name for game in games for name in game.players)
     spread = np.sqrt(np.diag(covariance))
     columns = np.array(
@@ -246,12 +186,3 @@ def _ratings(names: tuple[str, ...], games: Sequence[GameResult], pairs: _Pairs,
         )
     ]
     return Ratings(tuple(sorted(table, key=lambda one: -one.elo)), names, elo, covariance, dispersion, again, dof)
-
-
-def _gaps(elo: Floats, covariance: Floats) -> Floats:
-    """(n, n): differences of ratings, row less column, in standard deviations; 0 on the diagonal."""
-    own = np.diag(covariance)
-    variance = own[:, None] + own - 2.0 * covariance
-    np.fill_diagonal(variance, 1.0)
-    gaps: Floats = (elo[:, None] - elo) / np.sqrt(variance)
-    return gaps

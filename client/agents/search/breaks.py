@@ -6,7 +6,7 @@ import numpy as np
 
 from client.geometry import Point, azimuth, is_free, lattice
 from physics import Shot, Table, TableState, min_elevation
-from physics.real_table import SIZES
+from physics.specifications import SIZES
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,6 @@
 import functools
 import importlib
 import math
-import threading
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +15,7 @@ from physics import RealTable, Table
 from physics.constants import N_POCKETS
 from physics.engine import cache_folder, digest_of
 from physics.engine import kernels as physics_kernels
-
-_LOADING = threading.Lock()
+from physics.kept_code import kept_in
 
 
 @functools.cache
@@ -27,8 +25,10 @@ def geometry(jaws: bool = False) -> Any:
     Compiled once for a processor (some 10 s) and kept beside the physics.
     """
     physics_kernels(jaws)
-    with _LOADING:  # numba's setting below is the whole process's
-        module = _load()
+    folder = cache_folder()
+    own = None if folder is None else folder / f"search-{digest_of(Path(__file__).parent / 'compiled')[:16]}"
+    with kept_in(own):
+        module = importlib.import_module("client.agents.search.compiled.entries")
         _call_once(module)
     return module
 
@@ -45,19 +45,6 @@ def _call_once(module: Any) -> None:
     floats, integers = [np.zeros((1, 1)) for _ in range(3)], [np.zeros((1, 1), np.int64) for _ in range(2)]
     module.list_pots(row, positions, np.ones((1, 16), bool), 1e-3, (*integers, *floats))
     module.elevations(row, positions, number, (one, one, one), 0.1, one.copy())
-
-
-@functools.cache
-def _load() -> Any:
-    import numba
-
-    folder, before = cache_folder(), numba.config.CACHE_DIR
-    own = "" if folder is None else str(folder / f"search-{digest_of(Path(__file__).parent / 'compiled')[:16]}")
-    try:
-        numba.config.CACHE_DIR = own
-        return importlib.import_module("client.agents.search.compiled.kernels")
-    finally:
-        numba.config.CACHE_DIR = before
 
 
 @functools.lru_cache(maxsize=16)

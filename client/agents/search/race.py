@@ -89,7 +89,7 @@ class Race:
     """The chain's values as tables over (balls the shooter needs, balls the opponent needs).
 
     Attributes:
-        values: (4, MOST + 1, MOST + 1), MADE and its fellows, looked up by `compiled.kernels.shooter`.
+        values: (4, MOST + 1, MOST + 1), MADE and its fellows, looked up by `compiled.worths.shooter`.
     """
 
     def __init__(self, habits: Habits) -> None:

@@ -11,7 +11,8 @@ from support.situations import situation
 
 from client.learn import EightBallVectorEnv, act, observe
 from client.learn.codec import ACTION_SIZE
-from client.learn.games import Games, row_of
+from client.learn.games import Games
+from client.learn.rows import row_of
 from physics import Shot, Table, simulate
 from physics.shot import FIELDS
 from referee import CueBallArea, EightBall, Game, Group, Limits, NoiseModel, Phase

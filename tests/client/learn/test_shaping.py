@@ -7,7 +7,8 @@ import pytest
 from support.situations import situation
 
 from client.learn import EightBallEnv, EightBallVectorEnv
-from client.learn.games import Games, referee_of, row_of
+from client.learn.games import Games, referee_of
+from client.learn.rows import row_of
 from referee import Group, NoiseModel
 
 ROW = np.zeros(1, np.int64)

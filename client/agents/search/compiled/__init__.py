@@ -1,1 +1,1 @@
-"""Compiled geometry; see `kernels`."""
+"""Compiled geometry; see `entries`."""
