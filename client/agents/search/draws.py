@@ -1,4 +1,4 @@
-"""Draws of the noise that are spread evenly: as few of them tell as much as twice as many independent ones.
+"""Draws of the noise that are spread evenly: few of them tell more than as many independent ones.
 
 Whether a pot falls depends on the direction above all, and the means of eight independent draws scatter. Here every
 component falls into each of `n` equally likely intervals exactly once (Latin hypercube sampling: McKay, Beckman &
