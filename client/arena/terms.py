@@ -97,7 +97,7 @@ class Terms:
 
 
 def _with_preset(values: dict[str, Any]) -> dict[str, Any]:
-    """The values; of a file that says nothing of table and noise, with those of the contest that tells players apart."""
+    """The values; where nothing is said of table and noise, with those of the contest that tells players apart."""
     return values if {"preset", "table", "noise"} & values.keys() else values | {"preset": RECOMMENDED}
 
 

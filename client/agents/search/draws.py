@@ -36,4 +36,5 @@ def independent_normals(chance: np.random.Generator, count: int) -> Floats:
 
 def _normal(probability: Floats) -> Floats:
     """Quantiles of the standard normal distribution."""
-    return np.interp(probability, _PROBABILITIES, _QUANTILES)
+    found: Floats = np.interp(probability, _PROBABILITIES, _QUANTILES)
+    return found
