@@ -2,7 +2,7 @@
 
 Positions come from lock-step games. In each, every player thinks once, and its choice is played many times under
 fresh noise, the same for all; the mean of what the tables left are worth is the worth of the choice. Differences are
-paired by position: thirty tell half a hundredth. The judge is the agent's own value of tables, so that this
+paired by position: sixty tell half a hundredth. The judge is the agent's own value of tables, so that this
 measures how well it finds what it looks for, not whether it looks for the right thing; games tell that (`strength`).
 """
 
@@ -28,11 +28,17 @@ from physics import Table, TableState
 from referee import Action, Call, EightBall, Game, Group, Phase
 from referee.rules.batch_rulings import SAFETY_CALL
 
-PLAYERS = ("shots=1000", "shots=10000", "shots=10000,polish=off")
+PLAYERS = (
+    "shots=1000",
+    "shots=1000,even_draws=off",
+    "shots=10000",
+    "shots=10000,polish=off",
+    "shots=10000,even_draws=off",
+)
 """The first is what the others are compared with."""
 SHORT = ("shots=300", "shots=1000")
-SCENES = (("nine_foot", 2.0), ("nine_foot", 5.0))
-POSITIONS, COPIES = {True: 30, False: 4}, {True: 600, False: 50}
+SCENES = (("olympiad", 1.0), ("nine_foot", 2.0), ("nine_foot", 5.0))
+POSITIONS, COPIES = {True: 60, False: 4}, {True: 600, False: 50}
 GROUPS = {-1: None, 0: (Group.SOLIDS, Group.STRIPES), 1: (Group.STRIPES, Group.SOLIDS)}
 SEED = 77
 

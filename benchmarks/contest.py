@@ -17,7 +17,7 @@ from benchmarks.search import score_row
 
 TABLES, LEVELS = ("olympiad", "nine_foot"), (0.5, 1.0, 2.0, 5.0)
 STRONG, WEAK, GREEDY = "search:shots=3000", "search:shots=300", "greedy"
-PAIRS, GREEDY_PAIRS = {True: 30, False: 2}, {True: 15, False: 1}
+PAIRS, GREEDY_PAIRS = {True: 20, False: 2}, {True: 8, False: 1}
 SEED, ERRORS = 303, 2.5
 
 

@@ -18,7 +18,7 @@ from client.agents.search.sight import Sight
 from client.agents.search.value import Values
 from physics import Table
 from physics.shot import FIELDS
-from referee import Action, Decision, EightBall, Game, Phase, RuleId, Ruling
+from referee import Action, CueBallArea, Decision, EightBall, Game, Phase, RuleId, Ruling
 from referee.play.noise import OLYMPIAD_SIGMAS
 
 SEED = 20
@@ -30,6 +30,8 @@ NEIGHBOURS, STEPS = 4, (0.015, 0.01, 0.25, 1.2, 1.0, 1.0)
 """After the first round the best get neighbours, so far away: m, m, m/s, mm, mm, mm."""
 LEAST_BEHIND = 0.002
 """m behind the head string."""
+INSIDE = 1e-4
+"""m between a cue ball and a cushion, so that rounding cannot put it outside."""
 TABLES = ("olympiad", "nine_foot")
 WITHIN_FRICTION = 0.75
 """Of the tip offsets that are tried elsewhere: further out a tip slips on tables with jaws, noise included."""
@@ -80,6 +82,7 @@ def near(table: Table, one: Break, chance: np.random.Generator) -> Break:
     x, y, v, aim, a, b = (
         value + step * float(chance.normal()) for value, step in zip(dataclasses.astuple(one), STEPS, strict=True)
     )
+    x = float(np.clip(x, table.ball_radius + INSIDE, table.width - table.ball_radius - INSIDE))
     y, v = max(y, table.head_string + LEAST_BEHIND), min(v, table.v_max)
     return Break(round(x, 4), round(y, 4), round(v, 2), round(aim, 2), round(a, 2), round(b, 2))
 
@@ -122,33 +125,43 @@ def broken(
 
 def worth(rules: EightBall, level: float, rulings: list[Ruling]) -> NDArray[np.float64]:
     """What each break leaves its player, seat 0; a choice is worth its best answer to whoever decides."""
-    return np.array([settled(rules, level, ruling.game) for ruling in rulings])
+    answers = [answered(rules, level, ruling.game) for ruling in rulings]
+    known = iter(to_breaker(rules, level, [one for each in answers for one in each if isinstance(one, Game)]))
+    worths = [[next(known) if isinstance(one, Game) else one for one in each] for each in answers]
+    return np.array(
+        [max(each) if ruling.game.turn == 0 else min(each) for each, ruling in zip(worths, rulings, strict=True)]
+    )
 
 
-def settled(rules: EightBall, level: float, game: Game) -> float:
-    """A game's worth to seat 0."""
+def answered(rules: EightBall, level: float, game: Game) -> list[Game | float]:
+    """The tables that may come of a break, one for each decision; of a new rack what it is worth to seat 0."""
     if game.phase is not Phase.DECISION:
-        return to_breaker(rules, level, game)
-    answers = [decided(rules, level, game, each) for each in game.decisions]
-    return max(answers) if game.turn == 0 else min(answers)
+        return [game]
+    return [decided(rules, level, game, each) for each in game.decisions]
 
 
-def decided(rules: EightBall, level: float, game: Game, decision: Decision) -> float:
-    """The worth to seat 0 when the player in turn decides so."""
+def decided(rules: EightBall, level: float, game: Game, decision: Decision) -> Game | float:
+    """The table when the player in turn decides so; the worth of a new rack to seat 0."""
     ruling = rules.apply(game, Action(decision=decision), None, None)
     if ruling.rerack:
         breaking = worth_of_breaking(rules.table, level)
         return breaking if ruling.game.turn == 0 else 1.0 - breaking
-    return to_breaker(rules, level, ruling.game)
+    return ruling.game
 
 
-def to_breaker(rules: EightBall, level: float, game: Game) -> float:
-    """The worth to seat 0 of a table somebody shoots from."""
+def to_breaker(rules: EightBall, level: float, games: list[Game]) -> list[float]:
+    """The worth to seat 0 of tables somebody shoots from."""
+    if not games:
+        return []
     values = Values(Sight(rules.table, level), level)
-    kitchen = rules.table.head_string if game.cue_ball_in_hand == "kitchen" else 0.0
-    hand = np.array([game.cue_ball_in_hand is not None])
-    shooter = float(values.to_shoot(game.state.positions[None], np.array([-1], np.int8), hand, kitchen)[0])
-    return shooter if game.turn == 0 else 1.0 - shooter
+    positions, nobody = np.array([game.state.positions for game in games]), np.full(len(games), -1, np.int8)
+    hand = np.array([game.cue_ball_in_hand is not None for game in games])
+    kitchen = np.array([game.cue_ball_in_hand is CueBallArea.KITCHEN for game in games])
+    anywhere, behind = (values.to_shoot(positions, nobody, hand, least) for least in (0.0, rules.table.head_string))
+    shooter = np.where(kitchen, behind, anywhere)
+    mine = np.array([game.turn == 0 for game in games])
+    found: list[float] = np.where(mine, shooter, 1.0 - shooter).tolist()
+    return found
 
 
 if __name__ == "__main__":

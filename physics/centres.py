@@ -1,21 +1,22 @@
-"""Where a ball's centre may be on a table with jaws: clear of cushions and jaws, and not over a hole."""
+"""Where a ball's centre may be on a table with jaws: clear of cushions and jaws, and not over a hole.
+
+A centre is given by its distances, m, from the nearest long nose line (u) and short nose line (v), and by its distance
+along the table from the middle (end); ``mouths`` are the table's corner mouth and its side mouth.
+"""
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from physics import constants
 from physics.mouths import Mouth
 
-if TYPE_CHECKING:
-    from physics.real_table import RealTable
 
+def is_on_cloth(u: Any, v: Any, end: Any, mouths: tuple[Mouth, Mouth], rho: float, over_edge: float) -> Any:
+    """Whether a centre on the cloth may be there.
 
-def is_on_cloth(table: "RealTable", x: Any, y: Any, over_edge: float) -> Any:
-    """Whether a centre may be at (x, y); ``over_edge``: by how much it may be beyond the drop edge, m."""
-    half_x, half_y = 0.5 * table.width, 0.5 * table.length
-    side, end = abs(x - half_x), abs(y - half_y)
-    u, v, rho = half_x - side, half_y - end, table.contact_distance - constants.PLACEMENT_TOLERANCE
-    corner, beside = table.corner_shape, table.side_shape
+    Args:
+        rho: m, least distance from a nose line. over_edge: m, by how much it may be beyond the drop edge.
+    """
+    corner, beside = mouths
     in_rectangle = (u >= rho) & (v >= rho)
     in_corner = _clear_of_jaw(corner, rho, u, v) & _clear_of_jaw(corner, rho, v, u)
     in_corner = in_corner & _off_hole(corner, over_edge, u, v) & (u < corner.nose_end) & (v < corner.nose_end)
@@ -23,18 +24,16 @@ def is_on_cloth(table: "RealTable", x: Any, y: Any, over_edge: float) -> Any:
     return in_rectangle | in_corner | (in_side & (v >= rho))
 
 
-def is_clear_in_air(table: "RealTable", x: float, y: float, height: float) -> bool:
-    """Whether a centre may be at (x, y), ``height`` above where it rests on the cloth, m."""
-    u, v = 0.5 * table.width - abs(x - 0.5 * table.width), 0.5 * table.length - abs(y - 0.5 * table.length)
-    if not (u >= -table.rail_width and v >= -table.rail_width):
-        return False
-    least = table.ball_radius - constants.PLACEMENT_TOLERANCE
-    above_nose = height - (table.nose_height - table.ball_radius)
-    if above_nose >= least:
+def is_clear_in_air(u: float, v: float, end: float, mouths: tuple[Mouth, Mouth], least: float, height: float) -> bool:
+    """Whether a centre over the rails' rectangle is clear of them.
+
+    Args:
+        least: m, least distance from an edge. height: m, over the noses.
+    """
+    if height >= least:
         return True
-    reach = math.sqrt(least * least - above_nose * above_nose)
-    end = abs(y - 0.5 * table.length)
-    corner, beside = table.corner_shape, table.side_shape
+    reach = math.sqrt(least * least - height * height)
+    corner, beside = mouths
     if u >= reach and v >= reach:
         return True
     if u < corner.nose_end and v < corner.nose_end:

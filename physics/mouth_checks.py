@@ -1,13 +1,11 @@
 """Which pocket mouths can be: no ball touches both jaws at once, and none gets behind them."""
 
 import math
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from physics.errors import InvalidTable
 from physics.mouths import Mouth
-
-if TYPE_CHECKING:
-    from physics.real_table import RealTable
+from physics.table import Table
 
 SPARE_BETWEEN_JAWS: Final = 1e-3
 """m. Two jaws are farther apart than a ball is thick, by this: never does a ball touch both."""
@@ -16,8 +14,13 @@ SPARE_AT_DROP: Final = 1e-3
 """m. A centre that touches the end of a facing is over the hole by this: never does a ball get behind a facing."""
 
 
-def refuse_impossible_mouth(table: "RealTable", kind: str, mouth: Mouth) -> None:
-    """Raise InvalidTable where two jaws could be touched at once, or a ball get behind them; ``kind``: corner, side."""
+def refuse_impossible_mouth(table: Table, kind: str, mouth: Mouth, rho: float, rail_width: float) -> None:
+    """Raise InvalidTable where two jaws could be touched at once, or a ball get behind them.
+
+    Args:
+        table: whose mouths they are. kind: ``corner`` or ``side``.
+        rho: m, how near to a nose line a centre on the cloth comes. rail_width: m.
+    """
     least = 2.0 * table.ball_radius + SPARE_BETWEEN_JAWS
     if not mouth.clearance > least:
         allowed = (
@@ -25,13 +28,13 @@ def refuse_impossible_mouth(table: "RealTable", kind: str, mouth: Mouth) -> None
             f"with this cut and cushion width there are {mouth.clearance:.6f} m"
         )
         raise InvalidTable(f"{kind}_mouth", getattr(table, f"{kind}_mouth"), allowed)
-    if not _drops_before_facing_ends(mouth, table.contact_distance):
+    if not _drops_before_facing_ends(mouth, rho):
         allowed = "must let a ball that touches the end of a facing drop; with this shelf and cut it would not"
         raise InvalidTable(f"{kind}_hole_radius", mouth.hole_radius, allowed)
-    if max(-mouth.hole_centre[0], -mouth.hole_centre[1]) + mouth.hole_radius > table.rail_width:
-        allowed = f"must not reach beyond the rail, which is {table.rail_width:g} m wide"
+    if max(-mouth.hole_centre[0], -mouth.hole_centre[1]) + mouth.hole_radius > rail_width:
+        allowed = f"must not reach beyond the rail, which is {rail_width:g} m wide"
         raise InvalidTable(f"{kind}_hole_radius", mouth.hole_radius, allowed)
-    if not _is_apart_from_bed(mouth, table.contact_distance):
+    if not _is_apart_from_bed(mouth, rho):
         raise InvalidTable(f"{kind}_shelf", getattr(table, f"{kind}_shelf"), "must keep the hole behind the nose lines")
 
 

@@ -123,7 +123,7 @@ class RealTable(Table):
             raise InvalidTable("flight", self.flight, "must be True or False")
         object.__setattr__(self, "e_pressed", number_of("e_pressed", self.e_pressed, Range(0.0, self.e_cloth)))
         for kind, mouth in (("corner", self.corner_shape), ("side", self.side_shape)):
-            refuse_impossible_mouth(self, kind, mouth)
+            refuse_impossible_mouth(self, kind, mouth, self.contact_distance, self.rail_width)
 
     @property
     def flies(self) -> bool:
@@ -166,15 +166,31 @@ class RealTable(Table):
 
     def contains(self, x: Any, y: Any) -> Any:
         """See ``Table.contains``: in the rectangle of the cushions or in a mouth, clear of its jaws and its hole."""
-        return is_on_cloth(self, x, y, 0.0)
+        return self._admits(x, y, 0.0)
 
     def in_play(self, x: float, y: float) -> bool:
         """See ``Table.in_play``."""
-        return bool(is_on_cloth(self, x, y, constants.PLACEMENT_TOLERANCE))
+        return bool(self._admits(x, y, constants.PLACEMENT_TOLERANCE))
 
     def in_air(self, x: float, y: float, height: float) -> bool:
         """See ``Table.in_air``: within the rails' outer edge, R from every edge, and above the top of the rails."""
-        return is_clear_in_air(self, x, y, height)
+        side, end = abs(x - 0.5 * self.width), abs(y - 0.5 * self.length)
+        u, v = 0.5 * self.width - side, 0.5 * self.length - end
+        if not (u >= -self.rail_width and v >= -self.rail_width):
+            return False
+        least = self.ball_radius - constants.PLACEMENT_TOLERANCE
+        above_nose = height - (self.nose_height - self.ball_radius)
+        return is_clear_in_air(u, v, end, (self.corner_shape, self.side_shape), least, above_nose)
+
+    def _admits(self, x: Any, y: Any, over_edge: float) -> Any:
+        """Whether a centre may be at (x, y); ``over_edge``: by how much it may be beyond the drop edge, m."""
+        side, end = abs(x - 0.5 * self.width), abs(y - 0.5 * self.length)
+        u, v, rho = (
+            0.5 * self.width - side,
+            0.5 * self.length - end,
+            self.contact_distance - constants.PLACEMENT_TOLERANCE,
+        )
+        return is_on_cloth(u, v, end, (self.corner_shape, self.side_shape), rho, over_edge)
 
     def to_dict(self) -> dict[str, Any]:
         """See ``Table.to_dict``."""

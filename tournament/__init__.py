@@ -8,7 +8,7 @@ from tournament.entrant import Entrant
 from tournament.errors import InvalidResult, InvalidSpec, TournamentError
 from tournament.noise_plan import NoisePlan
 from tournament.pairings import Bye, Due, Pair, Plan
-from tournament.presets import PRESETS
+from tournament.presets import PRESETS, RECOMMENDED
 from tournament.results import GameResult
 from tournament.seeds import game_seeds
 from tournament.spec import Spec
@@ -18,6 +18,7 @@ from tournament.tournament import Tournament, forfeit
 
 __all__ = [
     "PRESETS",
+    "RECOMMENDED",
     "Bye",
     "Drawn",
     "Due",

@@ -13,7 +13,7 @@ from client.arena.tasks import PairTask
 from physics.errors import shown
 from physics.table_file import ENDING, read_table
 from referee.play.noise_file import read_sigmas
-from tournament import Due, Spec, TournamentError, game_seeds
+from tournament import RECOMMENDED, Due, Spec, TournamentError, game_seeds
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,14 +30,14 @@ class Terms:
 
     @classmethod
     def read(cls, path: Path) -> Self:
-        """Read an event file (TOML).
+        """Read an event file (TOML). One that names neither preset nor table nor noise has the preset `RECOMMENDED`.
 
         Raises:
             EventError: it cannot be read, or something in it cannot be: field, value and what is allowed.
         """
         try:
             values = tomllib.loads(path.read_text(encoding="utf-8"))
-            terms = cls.from_dict(_with_noise(_with_table(values, path.parent), path.parent))
+            terms = cls.from_dict(_with_noise(_with_table(_with_preset(values), path.parent), path.parent))
         except (OSError, ValueError, RecursionError) as error:  # no text, no TOML, a number of thousands of digits
             raise EventError(f"{path} cannot be read: {error}") from None
         except EventError as error:
@@ -94,6 +94,11 @@ class Terms:
             agent_seed=self.agent_seed,
             directory=None if directory is None else str(directory),
         )
+
+
+def _with_preset(values: dict[str, Any]) -> dict[str, Any]:
+    """The values; where nothing is said of table and noise, with those of the contest that tells players apart."""
+    return values if {"preset", "table", "noise"} & values.keys() else values | {"preset": RECOMMENDED}
 
 
 def _with_table(values: dict[str, Any], folder: Path) -> dict[str, Any]:

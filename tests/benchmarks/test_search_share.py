@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from benchmarks import recording, search, search_breaks, search_habits, search_odds
+from client.agents.search.breaks import Break, worth_of_breaking
 from client.agents.search.odds import Odds
 from physics import Table
-from referee import EightBall
+from referee import Decision, EightBall, Game, Phase, RuleId, Ruling
 from tournament.statistics import score_of_cells
 
 
@@ -63,6 +64,29 @@ def test_a_study_of_breaks_finds_one_that_goes_on():
     best, *others = search_breaks.study(EightBall(Table.olympiad()), 1.0, ((6, 10), (2, 20)))
     assert best["worth"] >= max(other["worth"] for other in others)
     assert best["goes_on"] > 0.7  # the studied break is among them; 0.98 of its breaks go on
+
+
+def test_breaks_near_a_cushion_stay_on_the_table():
+    """Seen: a neighbour's place lay beyond the cushion line, and a study of a quarter of an hour ended there."""
+    table, chance = Table.nine_foot(), np.random.default_rng(1)
+    state = EightBall(table).new_game(1).state
+    for x in (table.ball_radius, table.width - table.ball_radius):
+        for _ in range(50):
+            one = search_breaks.near(table, Break(round(x, 4), table.head_string + 0.01, 9.0, 0.0, 0.0, 0.0), chance)
+            one.stroke(table, state.moved(0, one.place))
+
+
+def test_a_break_is_worth_the_best_answer_of_the_player_who_decides():
+    """Games without a decision are valued as they lie; with one, seat 1 takes what is worst for the breaker."""
+    rules = EightBall(Table.olympiad())
+    lies = rules.new_game(1).state.moved(0, (0.4, 1.2))
+    mine, theirs = (Game(lies, Phase.PLAY, seat, 0) for seat in (0, 1))
+    decisions = (Decision.ACCEPT_TABLE, Decision.RERACK_AND_BREAK)
+    choosing = Game(lies, Phase.DECISION, 1, 0, decisions=decisions, choice=RuleId.R12)
+    rulings = [Ruling((), (), "", (), game) for game in (mine, theirs, choosing)]
+    first, second, third = search_breaks.worth(rules, 1.0, rulings).tolist()
+    assert first == pytest.approx(1.0 - second)
+    assert third == pytest.approx(min(second, 1.0 - worth_of_breaking(rules.table, 1.0)))
 
 
 def test_habits_are_counted():

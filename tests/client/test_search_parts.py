@@ -1,6 +1,7 @@
 """The parts of `search` that find better strokes: banks aimed, finalists polished, jumps."""
 
 import math
+from statistics import NormalDist
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import physics
 from client.agents.search import banks, polish
 from client.agents.search.breaks import worth_of_breaking
 from client.agents.search.budget import Budget, Pace
+from client.agents.search.draws import independent_normals, spread_normals
 from client.agents.search.evaluate import Evaluator, Responder, answered
 from client.agents.search.finalists import Finalists
 from client.agents.search.jumps import ELEVATIONS, leaps
@@ -152,3 +154,26 @@ def test_a_new_rack_is_worth_less_the_more_is_missed(table):
     assert all(0.4 < worth < 0.75 for worth in worths)
     if not table.has_jaws:
         assert worths == sorted(worths, reverse=True)
+
+
+@pytest.mark.parametrize("count", [1, 2, 6, 17, 400])
+def test_every_component_falls_once_into_each_of_so_many_likely_intervals(count):
+    """Latin hypercube sampling (McKay, Beckman & Conover, Technometrics 21, 1979)."""
+    draws = spread_normals(np.random.default_rng(3), count)
+    probability = np.vectorize(NormalDist().cdf)(draws)
+    assert draws.shape == (count, 5)
+    assert np.abs(np.sort(probability, axis=0) - (np.arange(count)[:, None] + 0.5) / count).max() <= 0.5 / count + 1e-3
+
+
+def test_spread_draws_are_normal_each_and_their_means_scatter_less():
+    """Of a threshold in two components, as a pot is one: unbiased, with less than half the variance."""
+    chance, chances = np.random.default_rng(4), {}
+    for draw in (spread_normals, independent_normals):
+        sets = np.array([draw(chance, 16) for _ in range(2000)])
+        made = (np.abs(sets[:, :, 1] + 0.3 * sets[:, :, 3]) < 1.0).mean(axis=1)
+        chances[draw] = made
+        assert np.abs(sets.mean(axis=(0, 1))).max() < 0.03
+        assert np.abs(sets.std(axis=(0, 1)) - 1.0).max() < 0.03
+    truth = 2.0 * NormalDist().cdf(1.0 / 1.09**0.5) - 1.0
+    assert abs(chances[spread_normals].mean() - truth) < 0.01
+    assert chances[spread_normals].var() < 0.5 * chances[independent_normals].var()

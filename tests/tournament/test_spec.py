@@ -8,7 +8,7 @@ from support.events import spec_of
 
 from physics import Table
 from physics.table import NAMED
-from tournament import PRESETS, Entrant, InvalidSpec, NoisePlan, Spec, SprtTerms, Tournament, game_seeds
+from tournament import PRESETS, RECOMMENDED, Entrant, InvalidSpec, NoisePlan, Spec, SprtTerms, Tournament, game_seeds
 
 WHOLE = {"name": "Winter open", "entrants": ["greedy", {"name": "b", "agent": "python b.py"}]}
 
@@ -103,14 +103,16 @@ def test_what_is_no_event_is_refused(data):
         Spec.from_dict(data)
 
 
-def test_the_presets_are_the_olympiads_formats():
+def test_the_presets_are_the_olympiads_formats_and_the_recommended_one():
     """Noise 1, 5, and variable in [0, 5] with the level told; 300 s; everybody meets everybody."""
     specs = {name: Spec.from_dict(WHOLE | {"preset": name}) for name in PRESETS}
     assert {name: spec.noise for name, spec in specs.items()} == {
         "olympiad-noise-1": NoisePlan((1.0,)),
         "olympiad-noise-5": NoisePlan((5.0,)),
         "olympiad-variable-noise": NoisePlan.variable(0.0, 5.0),
+        "nine-foot-noise-2": NoisePlan((2.0,)),
     }
+    assert {name: spec.table for name, spec in specs.items() if spec.table != "olympiad"} == {RECOMMENDED: "nine_foot"}
     assert {(spec.format, spec.seconds, spec.noise.told) for spec in specs.values()} == {("round_robin", 300.0, True)}
 
 

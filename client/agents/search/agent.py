@@ -83,9 +83,11 @@ class SearchAgent(Agent):
         return Budget(self._pace, shots // parts, seconds / parts, clock)
 
     def _turn(self, game: Game, budget: Budget) -> TurnSearch:
-        kitchen = game.cue_ball_in_hand is CueBallArea.KITCHEN
-        evaluator = Evaluator(self._rules.table, self._values, self._noise, self._chance, budget, kitchen)
-        return TurnSearch(self._rules, game, evaluator, self._options, self._chance)
+        kitchen, options = game.cue_ball_in_hand is CueBallArea.KITCHEN, self._options
+        evaluator = Evaluator(
+            self._rules.table, self._values, self._noise, self._chance, budget, kitchen, options.even_draws
+        )
+        return TurnSearch(self._rules, game, evaluator, options, self._chance)
 
     def _break(self, game: Game) -> Action:
         """The studied break."""

@@ -44,25 +44,31 @@ class Break:
         return Shot(min(self.v, table.v_max), phi, theta + 0.5, self.a, self.b)
 
 
-BEST = {
-    0.0: Break(x=0.3054, y=1.745, v=10.0, aim=28.32, a=-11.31, b=3.58),
-    1.0: Break(x=0.2419, y=1.7003, v=6.58, aim=26.76, a=-9.81, b=13.79),
-    5.0: Break(x=0.4601, y=1.679, v=6.8, aim=3.04, a=-3.16, b=14.27),
+STUDIED = {
+    False: {
+        0.0: Break(x=0.3054, y=1.745, v=10.0, aim=28.32, a=-11.31, b=3.58),
+        0.5: Break(x=0.3133, y=1.7481, v=10.0, aim=28.31, a=-9.84, b=2.81),
+        1.0: Break(x=0.2419, y=1.7003, v=6.58, aim=26.76, a=-9.81, b=13.79),
+        2.0: Break(x=0.419, y=1.8191, v=7.52, aim=17.59, a=-1.33, b=13.07),
+        5.0: Break(x=0.4455, y=1.6855, v=6.69, aim=2.79, a=-1.42, b=15.14),
+    },
+    True: {
+        0.5: Break(x=0.198, y=1.9536, v=9.0, aim=-26.25, a=-7.44, b=-7.89),
+        1.0: Break(x=0.18, y=1.955, v=9.28, aim=-22.6, a=-8.82, b=-9.29),
+        2.0: Break(x=0.1459, y=1.9771, v=12.0, aim=-32.05, a=-6.48, b=-9.97),
+        5.0: Break(x=0.1108, y=1.9812, v=12.0, aim=-31.55, a=-7.93, b=-9.06),
+    },
 }
-"""The best break by level of noise: `benchmarks/search_breaks.py`, line `search_breaks-20261122T024040`."""
-
-BEST_BESIDE_JAWS = {
-    1.0: Break(x=0.541, y=1.9525, v=12.0, aim=-5.33, a=-8.29, b=-0.05),
-    5.0: Break(x=0.4511, y=1.9462, v=11.13, aim=-0.99, a=0.0, b=9.97),
-}
-"""The same on the nine-foot table: the best of 160, of which the last six were played 400 times."""
+"""The best break by whether the table has jaws, and by level of noise: `benchmarks/search_breaks.py`, line
+`search_breaks-20261201T001527`, on the Olympiad and nine-foot tables; noise 0 is from line
+`search_breaks-20261122T024040`."""
 
 BREAKING = {
     False: {1.0: 0.69, 2.0: 0.58, 5.0: 0.52},
-    True: {1.0: 0.46, 2.0: 0.52, 5.0: 0.52},
+    True: {0.5: 0.58, 1.0: 0.55, 2.0: 0.51, 5.0: 0.50},
 }
-"""What a new rack is worth to the player who breaks it, by whether the table has jaws, and by level of noise: the share
-of games won by the breaker, line `search_odds-20261130T200637`."""
+"""What a new rack is worth to the player who breaks it, by whether the table has jaws, and by level of noise. Without:
+the share of games won by the breaker, line `search_odds-20261130T200637`; with: the worth of the studied break."""
 
 
 def worth_of_breaking(table: Table, noise: float) -> float:
@@ -74,7 +80,7 @@ def worth_of_breaking(table: Table, noise: float) -> float:
 
 def best_break(noise: float, table: Table) -> Break:
     """The break studied for the level nearest to this one, its place at the same share of the table's size."""
-    studied = BEST_BESIDE_JAWS if table.has_jaws else BEST
+    studied = STUDIED[table.has_jaws]
     best = studied[min(studied, key=lambda level: abs(level - noise))]
     if not table.has_jaws:
         return best

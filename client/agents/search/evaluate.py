@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from client.agents.search.budget import Budget, TimeUp
+from client.agents.search.draws import independent_normals, spread_normals
 from client.agents.search.shots import THETA, Floats, Groups, Integers, Shots, V
 from client.agents.search.value import Values
 from physics import Batch, Table
@@ -139,6 +140,7 @@ class Evaluator:
     Args:
         table: the game's. values: of positions. noise: a level, or the noise. chance: where the noise comes from.
         budget: of the stroke. kitchen: whether the cue ball is in hand behind the head string (R38).
+        even_draws: whether draws of the noise are spread evenly.
 
     Its methods raise `TimeUp` when the budget's seconds have passed.
     """
@@ -151,11 +153,13 @@ class Evaluator:
         chance: np.random.Generator,
         budget: Budget,
         kitchen: bool,
+        even_draws: bool = True,
     ) -> None:
         self.table, self.values, self.budget = table, values, budget
         model = NoiseModel.of(noise)
         self.noise, self._spread = model.level, model.level * model.sigmas.row()
         self._chance, self._kitchen = chance, kitchen
+        self._normals = spread_normals if even_draws else independent_normals
 
     def simulated(self, shots: Shots) -> Thinking[Batch]:
         """What the strokes do as they are meant, without noise."""
@@ -177,7 +181,7 @@ class Evaluator:
         All strokes are played under the same draws: their differences are not the draws'.
         """
         copies = copies if self.noise > 0.0 else 1
-        draws = self._spread * self._chance.standard_normal((copies, len(FIELDS)))
+        draws = self._spread * self._normals(self._chance, copies)
         strokes = (shots.strokes[:, None, :] + draws[None, :, :]).reshape(-1, len(FIELDS))
         strokes[:, V] = np.clip(strokes[:, V], 0.0, self.table.v_max)
         strokes[:, THETA] = np.clip(strokes[:, THETA], 0.0, self.table.theta_max)

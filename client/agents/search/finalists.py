@@ -37,7 +37,7 @@ class Finalists:
 
     @property
     def error(self) -> Floats:
-        """(k,): standard error of that."""
+        """(k,): standard error of that with independent draws; those that are spread evenly err less."""
         variance = np.maximum(0.0, self.squares / self.copies - self.worth**2)
         found: Floats = np.sqrt(variance / np.maximum(1.0, self.copies - 1.0))
         return found

@@ -30,7 +30,8 @@ class Options(Value):
         cpu: count seconds of this process's processor time, not of the wall clock: for fair measurements.
         safeties: consider everything beside straight pots. ways: play a pot in many ways, not in two.
         banks: aim banks, kicks, combinations and caroms, not only come upon them. jumps: over balls, where balls fly.
-        polish: look for better strokes near the best ones.
+        polish: look for better strokes near the best ones. even_draws: play copies under draws of the noise that are
+            spread evenly, not under independent ones.
 
     Raises:
         FieldError: an option that does not exist, or a value that is not allowed.
@@ -44,3 +45,4 @@ class Options(Value):
     banks: Switch = True
     jumps: Switch = True
     polish: Switch = True
+    even_draws: Switch = True

@@ -1,4 +1,4 @@
-"""A game as its player sees it, a row of numbers: `codec.observe`, compiled."""
+"""A game as its player sees it, in a row of numbers: `codec.observe`, compiled."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What the referee rules on a stroke (R8 to R49), compiled; he himself rules on what is rare."""
+"""What the referee rules on a stroke (R8 to R49), compiled; what is rare is left to the referee."""
 
 from client.learn.compiled import layout as to
 from client.learn.compiled.compiling import compiled, inner

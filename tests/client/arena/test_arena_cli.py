@@ -12,6 +12,7 @@ from client.arena.estimate import estimate
 from client.arena.terms import Terms
 from client.cli import application
 from referee.record import verify_record
+from tournament import RECOMMENDED, Spec
 
 CUP = """
 name = "Cup"
@@ -165,3 +166,18 @@ def test_an_event_with_a_players_own_standard_deviations(cli, tmp_path):
     (tmp_path / "mine.toml").write_text("phi = 40\n")
     with pytest.raises(EventError, match="phi = 40: must be a number from 0 to 10"):
         Terms.read(tmp_path / "cup.toml")
+
+
+def test_a_file_that_names_neither_table_nor_noise_is_played_in_the_recommended_contest(tmp_path):
+    """docs/tournaments.md: the preset that tells players apart. What a file says of either is played as before."""
+    file = tmp_path / "cup.toml"
+    file.write_text(CUP)
+    recommended = Spec.from_dict({"name": "x", "entrants": ["a", "b"], "preset": RECOMMENDED})
+    spec = Terms.read(file).spec
+    assert (spec.table, spec.noise, spec.seconds) == (recommended.table, recommended.noise, 100.0)
+    for said in ("noise = 1.0", 'table = "olympiad"', 'preset = "olympiad-noise-1"'):
+        file.write_text(f"{said}\n{CUP}")
+        spec = Terms.read(file).spec
+        assert (spec.table, spec.noise.levels) == ("olympiad", (1.0,)), said
+    stored = Terms.from_dict({"name": "x", "entrants": ["random", "greedy"]}).spec
+    assert stored.table == "olympiad", "terms that were stored, or sent to a server, mean what they meant"
