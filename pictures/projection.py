@@ -8,7 +8,7 @@ from pictures.elements import Point
 MM = 1000.0
 """Units of a picture in a metre."""
 
-FRAME = 0.14
+FRAME = 0.11
 """Width of the rail around the noses where the table does not say, m."""
 
 

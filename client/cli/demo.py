@@ -12,7 +12,10 @@ from client.cli.tables import NAMES, load_table
 def demo(
     agents: Annotated[
         tuple[str, str],
-        typer.Option(help="Two agents: random, greedy, search, search:seconds=0.3, module:Class, or stdio:COMMAND."),
+        typer.Option(
+            help="Two agents, as in greedy random: each random, greedy, search, search:seconds=0.3, module:Class, or "
+            "stdio:COMMAND."
+        ),
     ] = ("greedy", "random"),
     games: Annotated[int, typer.Option(min=1, max=1000, help="Games in the match.")] = 1,
     seed: Annotated[

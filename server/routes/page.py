@@ -18,6 +18,7 @@ from server.errors import NotFound
 from server.http.dependencies import Address, ContextDep, context_of
 from server.joined import joined
 from server.reference import reference
+from server.services.watch.first_picture import first_picture
 from server.services.watch.previews import preview
 from tournament.luck import VALUE
 
@@ -27,6 +28,10 @@ HOME: Final = "index.html"
 MAIN: Final = "main"
 JOINED: Final = "page.js"
 HEAD_END: Final = b"\n  </head>"
+ROOT: Final = b'<html lang="en">'
+LOBBY: Final = b'data-page="lobby"'
+EMBEDDED: Final = b'<html lang="en" class="embedded">'
+MAIN_ENDS: Final = b"</main>"
 RULES_FILE: Final = "rules.json"
 TABLES_SCRIPT: Final = "named_tables.js"
 RACKS_FILE: Final = "racks.json"
@@ -94,16 +99,25 @@ async def home(request: Request) -> Response:
 
 @router.get("/games/{game_id}")
 def game(game_id: str, request: Request, context: ContextDep, address: Address) -> Response:
-    """The page at an address that can be posted: its head tells of the game, for those who show previews of links."""
+    """The page of a game: its head tells of it, for those who show previews of links; its body shows how it stands."""
     context.limits.count_stranger(address)
     found = preview(context, game_id)
     if found is None:
         answer = _served(request, HOME)
         answer.status_code = 404 if answer.status_code == 200 else answer.status_code
         return _framed(request, answer)
-    tags = found.tags(str(request.base_url).rstrip("/")).encode()
-    content = page_files()[HOME].content.replace(HEAD_END, tags + HEAD_END, 1)
-    return _framed(request, _answered(request, File.of(HOME, content)))
+    content = page_files()[HOME].content
+    if request.headers.get("sec-fetch-dest") == "iframe":
+        content = content.replace(ROOT, EMBEDDED, 1)
+    content = content.replace(LOBBY, LOBBY + b' aria-current="page"', 1)
+    for place, more in (
+        (HEAD_END, found.tags(str(request.base_url).rstrip("/"))),
+        (MAIN_ENDS, first_picture(context, game_id)),
+    ):
+        content = content.replace(place, more.encode() + place, 1)
+    answer = _framed(request, _answered(request, File.of(HOME, content)))
+    answer.headers["Vary"] = "Sec-Fetch-Dest"
+    return answer
 
 
 def _framed(request: Request, answer: Response) -> Response:

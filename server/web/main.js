@@ -1,4 +1,9 @@
-/** The page: an address after the hash shows a view; a record dropped anywhere is opened. */
+/**
+ * The page: an address after the hash shows a view; a record dropped anywhere is opened.
+ *
+ * A game's address is a path: the server shows how it stands before this script has run, and what that shows stays until
+ * the view has as much to show.
+ */
 
 import { isEmbedded } from "./api.js";
 import { announce, el, fill } from "./dom.js";
@@ -9,18 +14,26 @@ import { MatchView } from "./view_match.js";
 import { TournamentView } from "./view_tournament.js";
 
 const main = /** @type {HTMLElement} */ (document.getElementById("main"));
-/** @type {{element: HTMLElement, close: () => void}} */
-let shown = { element: main, close: () => {} };
+/** @typedef {{element: HTMLElement, close: () => void, placed?: () => void}} View placed: told when it is on the page */
+const NONE = /** @type {View} */ ({ element: main, close: () => {} });
+let shown = NONE;
+/** What has been asked for and has nothing to show yet. */
+let coming = NONE;
 
 /** Addresses and their views; loaded when first asked for where most visitors never go. */
 const ROUTES = [
   { at: /^\/?$/, page: "lobby", make: () => opened(new LobbyView(), (view) => view.open()) },
   {
     at: /^\/games\/([\w.:-]+)(?:\/strokes\/(\d+))?$/, page: "lobby",
-    make: ([, game, stroke]) => opened(new GameView(), (view) => {
+    make: async ([address, game, stroke]) => {
+      if (stroke === undefined) history.replaceState(null, "", address);
+      const view = new GameView();
+      coming = view;
       view.goesOn = (next) => { location.hash = `#/games/${next}`; };
       view.watch(game, stroke === undefined ? null : Number(stroke));
-    }),
+      await view.ready;
+      return view;
+    },
   },
   { at: /^\/matches\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new MatchView(), (view) => view.open(id)) },
   { at: /^\/tournaments\/([\w.:-]+)$/, page: "lobby", make: ([, id]) => opened(new TournamentView(), (view) => view.open(id)) },
@@ -43,10 +56,18 @@ function opened(view, open) {
 
 /** Counts changes of address: a view that loads slowly must not replace a later one. */
 let asked = 0;
+/** What is to be shown: it stands after the hash, or is the path of a game. */
+function addressed() {
+  return location.hash ? location.hash.slice(1) : location.pathname;
+}
 
 async function route() {
   const mine = ++asked;
-  const address = location.hash.slice(1);
+  coming.close();
+  shown.close(); // it stays to be seen, and does nothing more: it might write its own address over the new one
+  shown = NONE;
+  const address = addressed();
+  if (location.hash && location.pathname !== "/") history.replaceState(null, "", `/${location.hash}`);
   const found = ROUTES.map((one) => ({ ...one, match: one.at.exec(address) })).find((one) => one.match);
   document.title = "Pooliad";
   const view = found ? await found.make(found.match) : notFound(address);
@@ -58,12 +79,14 @@ async function route() {
   }
 }
 
-/** @param {{element: HTMLElement, close: () => void}} view */
+/** @param {View} view */
 function show(view) {
   shown.close();
   shown = view;
+  coming = NONE;
   announce("");
   fill(main, view.element);
+  view.placed?.();
 }
 
 /** @param {string} address */
@@ -75,6 +98,7 @@ function notFound(address) {
 async function openRecord(file) {
   if (!file) return;
   const mine = ++asked;
+  coming.close();
   const view = new GameView();
   try {
     const text = await file.text();
@@ -97,6 +121,12 @@ function chosenBefore() {
   }
 }
 
+/** What the server drew has been seen: until then the script would only hold it up. Nobody sees a hidden page. */
+async function painted() {
+  if (document.hidden || !document.querySelector(".first-picture")) return;
+  await new Promise((seen) => requestAnimationFrame(() => setTimeout(seen)));
+}
+
 function theme() {
   const button = /** @type {HTMLElement} */ (document.getElementById("theme"));
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -115,7 +145,7 @@ function theme() {
   apply(chosenBefore());
 }
 
-addEventListener("hashchange", route);
+addEventListener("popstate", route); // links after the hash too; `hashchange` tells nothing of a step between a path and a hash
 addEventListener("dragover", (event) => event.preventDefault());
 addEventListener("drop", (event) => {
   event.preventDefault();
@@ -130,6 +160,5 @@ document.getElementById("skip")?.addEventListener("click", (event) => {
   main.focus();
 });
 document.documentElement.classList.toggle("embedded", isEmbedded());
-if (location.pathname !== "/" && !location.hash) history.replaceState(null, "", `/#${location.pathname}`); // a link that was posted: the server tells of the game there
 theme();
-route();
+painted().then(route);

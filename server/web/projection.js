@@ -4,8 +4,6 @@ import { shapeOf } from "./tables.js";
 
 /** Width of the frame around the cushion noses of a table that does not say it, m. */
 const FRAME = 0.11;
-/** What is drawn beyond a rail of known width, m. */
-const EDGE = 0.006;
 /** Of a straight mouth: how far behind it the hole's centre is drawn, and the hole's radius, m. */
 const BEHIND = 0.03;
 const HOLE_RADIUS = 0.058;
@@ -18,7 +16,7 @@ export class Projection {
   constructor(table, width, height, lying) {
     this.table = table;
     this.lying = lying;
-    this.frame = table.rail_width === undefined ? FRAME : table.rail_width + EDGE;
+    this.frame = table.rail_width ?? FRAME;
     const across = (lying ? table.length : table.width) + 2 * this.frame;
     const up = (lying ? table.width : table.length) + 2 * this.frame;
     this.scale = Math.min(width / across, height / up);

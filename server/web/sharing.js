@@ -10,7 +10,7 @@ export function linkTo(game) {
 /** @param {string} game @returns {HTMLElement[]} */
 export function sharing(game) {
   const address = linkTo(game);
-  const frame = `<iframe src="${location.origin}/#/games/${game}" title="A game of pool" width="720" height="560" style="border:0" loading="lazy"></iframe>`;
+  const frame = `<iframe src="${linkTo(game)}" title="A game of pool" width="720" height="560" style="border:0" loading="lazy"></iframe>`;
   const link = /** @type {HTMLInputElement} */ (el("input", { readonly: true, value: address }));
   const code = /** @type {HTMLTextAreaElement} */ (el("textarea", { readonly: true, spellcheck: "false" }));
   code.value = frame;

@@ -48,9 +48,9 @@ export class GameView {
       el("button", { type: "button", onclick: () => this.choose(this.shown + 1) }, "stroke ▸"),
       this.ghostButton, this.labLink,
       el("label", { class: "check" }, this.follow, "follow the game"));
-    this.element = el("article", { class: "game" }, this.heading, this.own, this.connection, this.board.element,
+    this.element = el("article", { class: "game" }, this.heading, this.connection, this.board.element,
       el("div", { class: "columns" },
-        el("div", { class: "main-column" }, this.stage.element, this.strokeButtons, this.chances.element, this.story.element),
+        el("div", { class: "main-column" }, this.stage.element, this.own, this.strokeButtons, this.chances.element, this.story.element),
         el("div", { class: "side-column" }, this.list.element, this.share)));
     /** @type {GameModel | null} */
     this.model = null;
@@ -71,6 +71,10 @@ export class GameView {
     /** Where a spectator is led when the next game begins. @type {((game: string) => void) | null} */
     this.goesOn = null;
     this.closed = false;
+    /** When there is something to show: the game as it stands, or why there is none. @type {Promise<void>} */
+    this.ready = new Promise((told) => { this.tell = told; });
+    /** Whether the match counts, once that is known. @type {Promise<void>} */
+    this.marked = Promise.resolve();
   }
 
   /** Whether everything told so far may be shown: nobody follows, or the picture has come as far. */
@@ -136,13 +140,22 @@ export class GameView {
       el("div", { class: "side-column" }, ...more, this.list.element)));
   }
 
+  /** It is on the page: its first frame has the table as large as it stays. */
+  placed() {
+    this.stage.fit();
+    this.list.scroll();
+  }
+
   /** Watch a game of the server. @param {string} game @param {number | null} stroke to begin with */
   watch(game, stroke = null) {
     this.wanted = stroke;
     this.follow.checked = stroke === null;
     this.stop = watchGame(game, {
       told: (kind, data) => this.take(kind, data),
-      connected: (said) => fill(this.connection, said),
+      connected: (said) => {
+        fill(this.connection, said);
+        if (said) this.tell();
+      },
       refused: (why) => this.refused(why),
     });
   }
@@ -160,6 +173,7 @@ export class GameView {
     this.follow.checked = false;
     this.begin();
     this.choose(0);
+    this.tell();
   }
 
   begin() {
@@ -172,7 +186,7 @@ export class GameView {
     const fromServer = games !== null;
     fill(this.terms, facts(`Game ${number + 1}${fromServer ? ` of ${games}` : ""}`,
       fromServer && match && el("a", { href: `#/matches/${match}` }, "the match"), describeTable(table), describeNoise(noise), this.mark, this.links));
-    if (fromServer && match) this.showMark(match);
+    if (fromServer && match) this.marked = this.showMark(match);
     if (fromServer) fill(this.share, sharing(this.model.terms.id));
     this.share.hidden = !fromServer;
     this.showSeen();
@@ -201,7 +215,9 @@ export class GameView {
     this.model.take(kind, data);
     if (kind === "result") this.ended();
     if (kind === "clocks" || kind === "result") this.goOn();
+    if (!this.begun) return; // the past: it is shown at once
     this.showSeen();
+    if (kind === "connections" || kind === "result") this.marked.then(this.tell);
   }
 
   /** The past has been told, or is about to be: the first clocks come right after it. */
@@ -306,6 +322,7 @@ export class GameView {
 
   close() {
     this.closed = true;
+    this.tell();
     this.stop();
     clearInterval(this.timer);
     this.stage.close();

@@ -6,6 +6,7 @@ import { announce, el, fill, labelled } from "./dom.js";
 import { Latest } from "./latest.js";
 import { linkTo } from "./sharing.js";
 import { signInPanel, tokenPanel } from "./sign_in.js";
+import { TableFileError, readTableFile } from "./table_file.js";
 import { describeTable, tableNames, tableTitle } from "./tables.js";
 import { GameView } from "./view_game.js";
 
@@ -15,6 +16,8 @@ const SECONDS = 900;
 const SEEDS_WITHIN = 15;
 /** How much later than the news of what follows a game's result may come, ms. */
 const RESULT_WITHIN = 3000;
+/** The choice of a table that a file holds. */
+const FROM_FILE = "file";
 /** A match that has no rack yet, so that seeds still count. */
 const WAITING = ["challenged", "opening"];
 
@@ -37,6 +40,8 @@ export class PlayView {
     this.choice = new Latest();
     /** @type {string | null} */
     this.match = null;
+    /** The table of a file, once one was chosen. @type {{title: string, values: Record<string, any>} | null} */
+    this.fileTable = null;
   }
 
   /** @param {string | null} game the address of a game: its players go on with it, everybody else watches */
@@ -66,6 +71,8 @@ export class PlayView {
     this.noise = /** @type {HTMLSelectElement} */ (el("select", {},
       [["0", "none"], ["0.5", "half"], ["1", "as in tournaments"]].map(([value, name]) => el("option", { value, selected: value === "0.5" }, name))));
     this.table = /** @type {HTMLSelectElement} */ (el("select", {}, tableNames().map((one) => el("option", { value: one }, tableTitle(one)))));
+    const file = /** @type {HTMLInputElement} */ (el("input", { type: "file", accept: ".toml", onchange: () => this.takeTable(file.files?.[0]) }));
+    if (this.fileTable) this.offerTable(this.fileTable);
     const name = /** @type {HTMLInputElement} */ (el("input", { maxlength: 64, required: true }));
     const bots = el("div", { class: "choices" }, "Looking …");
     const challenges = el("div", { class: "choices" });
@@ -73,7 +80,7 @@ export class PlayView {
       el("p", {}, "You are ", el("strong", {}, me.name), ". Games played here are unrated. ",
         el("button", { type: "button", onclick: () => this.leave() }, "Sign out")),
       tokenPanel(),
-      this.problem, el("p", { class: "one-line" }, labelled("Kind of table", this.table), labelled("Noise of the strokes", this.noise)),
+      this.problem, el("p", { class: "one-line wide" }, labelled("Kind of table", this.table), labelled("Table file, from pooliad calibrate", file), labelled("Noise of the strokes", this.noise)),
       el("div", { class: "cards" },
         el("section", { class: "panel", "aria-label": "Opponent" }, el("h2", {}, "Against the house"), bots),
         el("section", { class: "panel", "aria-label": "Another player" }, el("h2", {}, "Against another player"),
@@ -83,6 +90,23 @@ export class PlayView {
     this.showBots(bots);
     this.lookOut(challenges, me, choice);
     return choice;
+  }
+
+  /** A table file was chosen: its table is one more kind, and chosen. @param {File | undefined} file */
+  async takeTable(file) {
+    if (!file) return;
+    await this.attempt(async () => {
+      const values = await readTableFile(file);
+      this.fileTable = { title: `${file.name}: ${describeTable(values)}`, values };
+      this.offerTable(this.fileTable);
+    });
+  }
+
+  /** @param {{title: string}} table */
+  offerTable({ title }) {
+    this.table.querySelector(`[value="${FROM_FILE}"]`)?.remove();
+    this.table.append(el("option", { value: FROM_FILE, selected: true }, title));
+    this.table.value = FROM_FILE;
   }
 
   async showBots(place) {
@@ -113,7 +137,7 @@ export class PlayView {
 
   async challenge(opponent) {
     const terms = {
-      agents: [identity().id, opponent], games: 1, ...(this.table.value && { table: this.table.value }), rated: false, client_seed_seconds: SEEDS_WITHIN,
+      agents: [identity().id, opponent], games: 1, table: this.table.value === FROM_FILE ? this.fileTable?.values : this.table.value, rated: false, client_seed_seconds: SEEDS_WITHIN,
       noise: { level: Number(this.noise.value), told: true }, clock: { seconds: SECONDS },
     };
     await this.attempt(async () => {
@@ -344,6 +368,7 @@ async function sent(path, body, version) {
 
 /** @param {unknown} error */
 function words(error) {
+  if (error instanceof TableFileError) return error.message;
   if (!(error instanceof ProblemError)) return "The server cannot be reached.";
   const faults = error.problem.errors ?? [];
   return faults.length ? faults.map((fault) => fault.detail ?? `${fault.field}: ${fault.allowed}`).join(" ") : error.message;

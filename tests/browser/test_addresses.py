@@ -92,7 +92,7 @@ def test_a_player_leaves_comes_back_and_is_found(new_page, server):
     again.get_by_role("region", name="Your turn").wait_for()
     other = new_page()
     other.goto(address)
-    other.wait_for_url(address.replace("/play/", "/games/"))
+    other.wait_for_url(address.replace("#/play/", "games/"))
     other.get_by_role("heading", level=1).filter(has_text=name).wait_for()
     assert not other.get_by_role("link", name="To the table").is_visible()
 
@@ -102,11 +102,37 @@ def test_a_link_that_was_posted_leads_to_its_game(page, server):
     match = server.match(names=("posted ann", "posted bob"))
     page.goto(f"{server.url}/games/{match.game}")
     page.get_by_role("heading", name="posted ann – posted bob").wait_for()
-    assert page.url == f"{server.url}/#/games/{match.game}"
+    assert page.url == f"{server.url}/games/{match.game}", "it stays the address"
     page.get_by_text("Share and embed").click()
-    assert page.get_by_label("Link", exact=True).input_value() == f"{server.url}/games/{match.game}"
+    assert page.get_by_label("Link", exact=True).input_value() == page.url
     page.get_by_role("link", name="Lobby").click()
     page.get_by_role("heading", name="Lobby").wait_for()
+    assert page.url == f"{server.url}/#/"
+
+
+def test_a_game_has_one_address_however_it_was_reached(page, server):
+    """By a link within the page, an old address, back and forth; a stroke keeps its own."""
+    one, other = server.match(names=("one ann", "one bob")), server.match(names=("other ann", "other bob"))
+    play_on(one)
+    page.goto(f"{server.url}/#/games/{one.game}")
+    page.get_by_role("heading", name="one ann – one bob").wait_for()
+    assert page.url == f"{server.url}/games/{one.game}"
+    page.evaluate("game => { location.hash = `#/games/${game}`; }", other.game)
+    page.get_by_role("heading", name="other ann – other bob").wait_for()
+    assert page.url == f"{server.url}/games/{other.game}"
+    page.go_back()
+    page.get_by_role("heading", name="one ann – one bob").wait_for()
+    assert page.url == f"{server.url}/games/{one.game}"
+    page.get_by_role("link", name="Laboratory", exact=True).click()
+    page.get_by_role("heading", name="Laboratory").wait_for()
+    assert page.url.startswith(f"{server.url}/#/lab")
+    page.go_back()
+    page.get_by_role("heading", name="one ann – one bob").wait_for()
+    page.go_forward()
+    page.get_by_role("heading", name="Laboratory").wait_for()
+    page.evaluate("game => { location.hash = `#/games/${game}/strokes/0`; }", one.game)
+    page.locator("ul.rules li").first.wait_for()
+    assert page.url == f"{server.url}/#/games/{one.game}/strokes/0"
 
 
 def test_who_is_not_to_be_remembered_is_not(new_page, server):

@@ -137,7 +137,7 @@ def test_a_game_is_shown_in_a_frame_of_those_who_may(new_page, own_server_in_fra
     page.goto(f"{server.url}/#/games/{match.game}")
     page.get_by_text("Share and embed").click()
     frame = page.get_by_label("Frame for another page").input_value()
-    assert f'<iframe src="{server.url}/#/games/{match.game}"' in frame
+    assert f'<iframe src="{server.url}/games/{match.game}"' in frame
     (folder / "page.html").write_text(f"<!doctype html><title>x</title>{frame}")
     around = new_page()
     around.goto(f"{origin}/page.html")

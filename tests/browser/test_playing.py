@@ -2,7 +2,10 @@
 
 import json
 import re
+import subprocess
+import sys
 import time
+import tomllib
 import uuid
 from pathlib import Path
 from typing import Any
@@ -12,9 +15,12 @@ from playwright.sync_api import Page
 from support.held_back import HeldBack
 from support.play_along import Match, act
 from support.players import Potter
+from support.require import ROOT
 
 import physics
 from client import notation
+from physics import RealTable, Table
+from physics.table_file import read_table, write_table
 from protocol import View
 from referee.record import verify_record
 
@@ -417,6 +423,94 @@ def shoot_faster(hand: Hand, foretold: Any) -> None:
 
 def picture(page: Page) -> str:
     return str(page.locator(".table canvas").evaluate("canvas => canvas.toDataURL()"))
+
+
+@pytest.mark.slow
+def test_a_game_by_hand_on_the_table_that_was_calibrated(new_page, own_server_with_bot, tmp_path):
+    """docs/calibration.md, "Playing on it", from the shipped data to strokes on a phone's page (issue 19)."""
+    server, file = own_server_with_bot, tmp_path / "my_table.toml"
+    data = ROOT / "examples" / "calibration"
+    words = ["calibrate", data / "paths.csv", "--strokes", data / "strokes.csv", "--table", "nine_foot", "--out", file]
+    fitted = "mu_slide,mu_roll,e_ball,e_cushion,mu_cushion"
+    done = subprocess.run(
+        [sys.executable, "-m", "client.cli", *map(str, words), "--fit", fitted],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    table = read_table(file)
+    assert isinstance(table, RealTable)
+    page = new_page(390, 844, reduced_motion="reduce", has_touch=True, is_mobile=True)
+    hand = sat_down(page, server)
+    page.get_by_label("Table file, from pooliad calibrate").set_input_files(file)
+    kind = page.get_by_label("Kind of table").locator("option:checked", has_text="my_table.toml: nine-foot table, own ")
+    kind.wait_for(state="attached")
+    assert page.evaluate("document.documentElement.scrollWidth") == 390, "a long name widens nothing"
+    page.get_by_role("button", name="Play random").click(timeout=PATIENCE)
+    page.wait_for_url(re.compile("#/play/game_"), timeout=PATIENCE)
+    game = page.url.rpartition("/")[2]
+    strokes: list[dict[str, Any]] = []
+    by_hand = 0
+    while by_hand < 3 and (view := own_turn(hand, game)) is not None:
+        hand.take_turn(view)
+        while hand.view(game).version == view.version:
+            page.wait_for_timeout(100)
+            assert not page.locator(".said-over .refusal").inner_text()
+        strokes = server.http.get(f"/v1/games/{game}/shots?limit=200").json()["shots"]
+        by_hand = len([one for one in strokes if one["shot"] and one["seat"] == view.seat])
+    assert by_hand, "over sooner only by an 8 that fell"
+    (match,) = server.http.get("/v1/matches").json()["matches"]
+    assert Table.from_dict(match["table"]) == table, "to the bit, what calibrate wrote"
+    assert {one["seat"] for one in strokes} == {0, 1}, "the bot has played too"
+    box = page.locator(".table canvas").bounding_box()
+    long, wide = (side + 2 * table.rail_width for side in (table.length, table.width))
+    shown = sorted((box["width"], box["height"]))
+    assert shown[1] / shown[0] == pytest.approx(long / wide, rel=0.01), "drawn to its own measures"
+    page.get_by_text("nine-foot table, own mu slide").first.wait_for()
+
+
+def own_turn(hand: Hand, game: str) -> View | None:
+    """The next turn of the hand's, once the server has it; None when the game is over."""
+    end = time.monotonic() + PATIENCE / 1000
+    while time.monotonic() < end:
+        view = hand.view(game)
+        if view.outcome is not None or view.turn == view.seat:
+            return view if view.outcome is None else None
+        hand.page.wait_for_timeout(100)
+    pytest.fail("no turn came")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('name = "nine_foot"\nmu_slide: 0.2\n', "line 2: must be name = value"),
+        ('name = "nine_foot"\nmu_slide = 0.2\nmu_slide = 0.3\n', "line 3: mu_slide stands there twice"),
+        ('name = "round"\n', "must be one of"),
+        ('name = "nine_foot"\ne_cushion = 7.5\n', "e_cushion"),
+        ("#" * 70_000, "at most 65536 bytes"),
+    ],
+)
+def test_a_file_that_is_no_table_is_said_to_be_none(human, watched, tmp_path, text, said):
+    """By its line, or by the server's sentence; the choice of a table stays as it was."""
+    watched.forgiven = ("422",)
+    file = tmp_path / "my_table.toml"
+    file.write_text(text)
+    human.page.get_by_label("Table file, from pooliad calibrate").set_input_files(file)
+    human.page.locator(".refusal", has_text=said).wait_for()
+    assert human.page.get_by_label("Kind of table").input_value() == "olympiad"
+
+
+def test_the_page_reads_a_table_file_as_the_physics_does(page, server, tmp_path):
+    """Every form that ``write_table`` has, and that a hand may give it."""
+    page.goto(server.url)
+    table = Table.nine_foot().replace(mu_slide=0.2151234567890123, mu_roll=1e-2, mu_spin=4.5e-03, flight=False)
+    file = tmp_path / "my_table.toml"
+    write_table(file, table, ("Fitted.", 'name = "round"'))
+    text = file.read_text() + "\n  e_ball=0.9_4  # by hand\r\n"
+    read = page.evaluate("async (text) => (await import('/web/table_file.js')).valuesOf(text, 'x')", text)
+    assert read == tomllib.loads(text)
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """Pictures of games over HTTP: for embeds, link previews, players that see."""
 
 import re
+import time
 import xml.etree.ElementTree as ElementTree
 
 import pytest
@@ -8,6 +9,7 @@ import pytest
 import pictures
 from physics import Shot, Table, TableState, simulate
 from server.routes.page import HEADERS
+from server.services.watch.first_picture import drawn
 from server.services.watch.previews import Preview
 
 
@@ -86,6 +88,7 @@ def test_a_link_to_a_game_is_shown_in_small_where_it_is_posted(server, played):
     assert tags["url"] == f"http://pool.example/games/{game}"
     assert tags["image"] == f"http://pool.example/v1/games/{game}/position.png"
     rest = re.sub(r"\n    <meta (property|name=.twitter).*", "", page.text)
+    rest = re.sub(r'<article class="game">.*</article>', "", rest).replace(' aria-current="page"', "")
     assert rest == server.request("GET", "/").text, "else it is the page"
     assert {name: page.headers[name] for name in HEADERS} == HEADERS
     kept = {"Host": "pool.example", "If-None-Match": page.headers["etag"]}
@@ -118,6 +121,63 @@ def test_a_link_to_no_game_is_the_page_without_a_picture(server):
     assert server.request("GET", "/v1/games/none/position.png").status_code == 404
 
 
+def test_the_first_answer_of_a_games_page_has_the_balls_where_they_lie(server, played):
+    """Both ways round, to a tenth of a millimetre; who plays, and how it stands."""
+    mover, game, _entry = played
+    view = mover.get(f"/v1/games/{game}").json()["view"]
+    page = server.request("GET", f"/games/{game}").text
+    table, state = Table.from_dict(view["table"]), TableState.from_dict(view["balls"])
+    for upright, name in ((False, "lying"), (True, "upright")):
+        picture = ElementTree.fromstring(re.search(rf'<svg class="{name}".*?</svg>', page)[0])
+        svg = "{http://www.w3.org/2000/svg}"
+        moved = [one.get("transform") for one in picture.findall(f"{svg}g[@transform]")]
+        places = [tuple(map(float, re.fullmatch(r"translate\((\S+) (\S+)\)", text).groups())) for text in moved]
+        frame, length, width = 0.11, table.length, table.width
+        xy = [state.positions[ball].tolist() for ball in state.balls]
+        expected = [
+            (1000 * (frame + x), 1000 * (frame + length - y))
+            if upright
+            else (1000 * (frame + length - y), 1000 * (frame + width - x))
+            for x, y in xy
+        ]
+        assert places == [pytest.approx(each, abs=0.051) for each in expected]
+    for player in view["players"]:
+        assert page.count(f'<strong class="name">{player}</strong>') == 1
+    assert "<span>noise " in page or "<span>no noise" in page
+
+
+def test_the_first_answer_is_kept_while_nothing_is_played(server, played, monkeypatch):
+    """Clocks run meanwhile: what they show is left to the script."""
+    mover, game, _entry = played
+    tag = server.request("GET", f"/games/{game}").headers["etag"]
+    time.sleep(1.1)
+    again = server.request("GET", f"/games/{game}", headers={"If-None-Match": tag})
+    assert (again.status_code, again.text) == (304, "")
+    view = mover.get(f"/v1/games/{game}").json()["view"]
+    loser = mover if view["seat"] == view["turn"] else None
+    assert (loser or mover).post(f"/v1/games/{game}/concede", version=view["version"]).status_code == 200
+    after = server.request("GET", f"/games/{game}", headers={"If-None-Match": tag})
+    assert after.status_code == 200
+    assert '<p class="result">' in after.text
+    assert '<p class="result"></p>' not in after.text
+
+
+def test_nothing_in_a_first_picture_ends_its_element():
+    """An attack: names are what agents call themselves."""
+    evil = '"><script>'
+    view = {
+        "players": [evil, evil], "number": 0, "games": 1, "match": evil, "table": Table.olympiad().to_dict(),
+        "noise": {"level": None}, "balls": {"0": [0.5, 0.5]}, "groups": None, "score": [0, 0],
+    }  # fmt: skip
+    clock = {"seconds_left": 60.0}
+    events = {
+        "game": {"view": view},
+        "clocks": {"turn": None, "clocks": [clock, clock]},
+        "result": {"score": [0, 1], "record": evil, "outcome": {"winner": 0, "reason": evil}},
+    }
+    assert "<script" not in drawn(events, rated=False)
+
+
 def test_nothing_in_a_preview_ends_its_element():
     """An attack: the origin is whatever the asker sends as `Host`, names are whatever agents call themselves."""
     tags = Preview("g", 'a"><script>', "b'&<").tags('http://x"><script>')
@@ -129,5 +189,5 @@ def test_games_that_nobody_sees_without_a_token_have_no_preview(own_server, tabl
     server = own_server(POOLIAD_PUBLIC_READS="false")
     game = table_at(server).game
     answer = server.request("GET", f"/games/{game}")
-    assert "og:" not in answer.text
+    assert (answer.status_code, answer.text) == (404, server.request("GET", "/").text), "no word of it, no ball"
     assert server.request("GET", f"/v1/games/{game}/position.png").status_code == 401
