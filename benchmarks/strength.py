@@ -192,9 +192,15 @@ def pooled(names: Sequence[str]) -> Tables:
         if name not in known:
             raise ValueError(f"line = {name!r}: must be the id of a line in {recording.path_of('strength').name}")
     return {
-        title: [row | {"line": name} for name in names for row in known[name]["tables"].get(title, ())]
+        title: _filled([row | {"line": name} for name in names for row in known[name]["tables"].get(title, ())])
         for title in ("matches", "ends", "reckoned", "calls")
     }
+
+
+def _filled(rows: list[Row]) -> list[Row]:
+    """The rows with the columns of all of them: earlier lines have fewer."""
+    columns = {name: None for row in rows for name in row}
+    return [columns | row for row in rows]
 
 
 def main() -> None:
