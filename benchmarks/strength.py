@@ -37,6 +37,7 @@ NO_POT, HARD, FAIR = 0.1, 0.5, 0.8
 """Limits of the best straight pot's chance. Below the first there is no pot; then hard, fair and easy ones."""
 CAUSES = ("no_pot", "hard", "fair", "easy_missed", "easy_declined")
 DECILES = 10
+CALLS = (("ball", True), ("safety", False))
 
 
 def measure(full: bool) -> Tables:
@@ -49,13 +50,15 @@ def tables(matches: Sequence[MatchUp], plan: str) -> Tables:
     results: list[Row] = []
     ends: list[Row] = []
     reckoned: list[Row] = []
+    calls: list[Row] = []
     for match in matches:
         games = play(match)
         results.append(match_row(match, games) | {"plan": plan})
         for player in (0, 1):
             ends.append(end_row(match, games, player))
             reckoned += reckoned_rows(match, games, player)
-    return {"matches": results, "ends": ends, "reckoned": reckoned}
+            calls += call_rows(match, games, player)
+    return {"matches": results, "ends": ends, "reckoned": reckoned, "calls": calls}
 
 
 def match_row(match: MatchUp, games: Sequence[Played]) -> Row:
@@ -155,6 +158,23 @@ def reckoned_rows(match: MatchUp, games: Sequence[Played], player: int) -> list[
     ]
 
 
+def call_rows(match: MatchUp, games: Sequence[Played], player: int) -> list[Row]:
+    """What pots and safeties were reckoned to be worth, beside how often they led to a won game."""
+    known = [
+        (turn.called, turn.worth, float(game.winner == player))
+        for game in games
+        for turn in game.turns
+        if turn.seat == player and turn.worth is not None and game.winner is not None
+    ]
+    rows = [(name, [(worth, won) for each, worth, won in known if each == called]) for name, called in CALLS]
+    return [
+        {**named(match), "of": match.players[player], "call": name, "strokes": len(some)}
+        | {"reckoned": round(float(np.mean(some, axis=0)[0]), 3), "won": round(float(np.mean(some, axis=0)[1]), 3)}
+        for name, some in rows
+        if some
+    ]
+
+
 def log_loss(chance: np.ndarray, won: np.ndarray) -> float:
     """Mean of minus the logarithm of the chance given to what happened; certainties count as 0.999."""
     known = np.clip(chance, 0.001, 0.999)
@@ -172,9 +192,15 @@ def pooled(names: Sequence[str]) -> Tables:
         if name not in known:
             raise ValueError(f"line = {name!r}: must be the id of a line in {recording.path_of('strength').name}")
     return {
-        title: [row | {"line": name} for name in names for row in known[name]["tables"][title]]
-        for title in ("matches", "ends", "reckoned")
+        title: _filled([row | {"line": name} for name in names for row in known[name]["tables"].get(title, ())])
+        for title in ("matches", "ends", "reckoned", "calls")
     }
+
+
+def _filled(rows: list[Row]) -> list[Row]:
+    """The rows with the columns of all of them: earlier lines have fewer."""
+    columns = {name: None for row in rows for name in row}
+    return [columns | row for row in rows]
 
 
 def main() -> None:

@@ -140,3 +140,25 @@ def test_a_contest_counts_runs_and_pairs():
     assert contest.runs(games, 0, "run")["run"] == 0.5
     row = contest.runs(games, 1, "run")
     assert (row["run"], row["run_low_95"] < 0.5 < row["run_high_95"]) == (0.5, True)
+
+
+def test_pots_and_safeties_are_told_apart():
+    """What each was reckoned to be worth beside what its player won; draws and untold worths count for nothing."""
+    lies = np.full((16, 2), np.nan)
+    turns = [
+        Turn(0, lies, 0, True, True, True, 0.9),
+        Turn(0, lies, 0, False, False, False, 0.6),
+        Turn(0, lies, 0, True, True, True, None),
+    ]
+    games = [Played(0, 0, winner=0, turns=turns), Played(1, 0, winner=1, turns=turns), Played(2, 0, turns=turns)]
+    rows = strength.call_rows(MatchUp(("a", "b"), 1.0), games, 0)
+    assert [(row["call"], row["strokes"], row["reckoned"], row["won"]) for row in rows] == [
+        ("ball", 2, 0.9, 0.5),
+        ("safety", 2, 0.6, 0.5),
+    ]
+    assert strength.call_rows(MatchUp(("a", "b"), 1.0), games, 1) == []
+
+
+def test_lines_of_different_columns_are_put_together():
+    """Seen: a column that earlier lines lack ended the command that pools them."""
+    assert strength._filled([{"a": 1}, {"a": 2, "b": 3}]) == [{"a": 1, "b": None}, {"a": 2, "b": 3}]

@@ -14,7 +14,8 @@ from client.agents.search.draws import independent_normals, spread_normals
 from client.agents.search.evaluate import Evaluator, Responder, answered
 from client.agents.search.finalists import Finalists
 from client.agents.search.jumps import ELEVATIONS, leaps
-from client.agents.search.odds import odds
+from client.agents.search.odds import Odds, odds, safety_odds
+from client.agents.search.options import Options
 from client.agents.search.refine import falls
 from client.agents.search.shots import Shots, Tables
 from client.agents.search.sight import Sight, Valuation
@@ -177,3 +178,20 @@ def test_spread_draws_are_normal_each_and_their_means_scatter_less():
     truth = 2.0 * NormalDist().cdf(1.0 / 1.09**0.5) - 1.0
     assert abs(chances[spread_normals].mean() - truth) < 0.01
     assert chances[spread_normals].var() < 0.5 * chances[independent_normals].var()
+
+
+def test_a_safety_counts_less_than_the_model_says_and_a_pot_as_much():
+    """At noise 1 on a table without jaws; elsewhere nothing was measured, and nothing is changed."""
+    assert safety_odds(1.0, False).of(np.array([0.59]))[0] < 0.3
+    assert safety_odds(5.0, False) == safety_odds(1.0, True) == Odds(0.0, 1.0)
+    evaluator, responder, tables = at(OLYMPIAD, {0: (0.5, 1.0), 3: (0.2, 0.5), 8: (0.9, 2.0), 12: (0.9, 0.3)})
+    plain = Evaluator(
+        OLYMPIAD, evaluator.values, 1.0, np.random.default_rng(5), Budget(Pace()), False, Options(safety_odds=False)
+    )
+    strokes = np.array([[1.5, 240.0, 3.0, 0.0, 0.0]] * 2)
+    shots = Shots(tables, np.zeros(2, np.int64), strokes, np.array([3, -1]), np.array([0, -1]), np.zeros(2))
+    pot, safety = answered(evaluator.as_meant(shots), responder)
+    same, before = answered(plain.as_meant(shots), responder)
+    assert pot == same
+    assert safety == pytest.approx(safety_odds(1.0, False).of(np.array([before]))[0])
+    assert safety < before

@@ -84,9 +84,7 @@ class SearchAgent(Agent):
 
     def _turn(self, game: Game, budget: Budget) -> TurnSearch:
         kitchen, options = game.cue_ball_in_hand is CueBallArea.KITCHEN, self._options
-        evaluator = Evaluator(
-            self._rules.table, self._values, self._noise, self._chance, budget, kitchen, options.even_draws
-        )
+        evaluator = Evaluator(self._rules.table, self._values, self._noise, self._chance, budget, kitchen, options)
         return TurnSearch(self._rules, game, evaluator, options, self._chance)
 
     def _break(self, game: Game) -> Action:

@@ -13,12 +13,14 @@ from numpy.typing import NDArray
 
 from client.agents.search.budget import Budget, TimeUp
 from client.agents.search.draws import independent_normals, spread_normals
+from client.agents.search.odds import safety_odds
+from client.agents.search.options import Options
 from client.agents.search.shots import THETA, Floats, Groups, Integers, Shots, V
 from client.agents.search.value import Values
 from physics import Batch, Table
 from physics.shot import FIELDS
 from referee.play.noise import NoiseModel
-from referee.rules.batch_rulings import read_verdicts
+from referee.rules.batch_rulings import SAFETY_CALL, read_verdicts
 
 AT_ONCE = 1000
 """Strokes of a question to a clock: it is looked at between them."""
@@ -140,7 +142,7 @@ class Evaluator:
     Args:
         table: the game's. values: of positions. noise: a level, or the noise. chance: where the noise comes from.
         budget: of the stroke. kitchen: whether the cue ball is in hand behind the head string (R38).
-        even_draws: whether draws of the noise are spread evenly.
+        options: how draws of the noise are spread, and what safeties are reckoned to be worth.
 
     Its methods raise `TimeUp` when the budget's seconds have passed.
     """
@@ -153,13 +155,15 @@ class Evaluator:
         chance: np.random.Generator,
         budget: Budget,
         kitchen: bool,
-        even_draws: bool = True,
+        options: Options = Options(),  # noqa: B008
     ) -> None:
         self.table, self.values, self.budget = table, values, budget
         model = NoiseModel.of(noise)
         self.noise, self._spread = model.level, model.level * model.sigmas.row()
         self._chance, self._kitchen = chance, kitchen
-        self._normals = spread_normals if even_draws else independent_normals
+        self._normals = spread_normals if options.even_draws else independent_normals
+        odds = safety_odds(self.noise, values.sight.has_jaws)
+        self._safety = odds if options.safety_odds and odds.shift else None
 
     def simulated(self, shots: Shots) -> Thinking[Batch]:
         """What the strokes do as they are meant, without noise."""
@@ -173,7 +177,7 @@ class Evaluator:
     def as_meant(self, shots: Shots) -> Thinking[Floats]:
         """What the strokes are worth without noise, (k,)."""
         worths = yield from self._asked(shots, 1, shots.strokes, judged=True)
-        return np.concatenate(worths)
+        return self._borne_out(shots, np.concatenate(worths)[:, None])[:, 0]
 
     def noisy(self, shots: Shots, copies: int) -> Thinking[Floats]:
         """What each copy of each stroke is worth under noise, (k, copies), or (k, 1) where there is none.
@@ -186,7 +190,13 @@ class Evaluator:
         strokes[:, V] = np.clip(strokes[:, V], 0.0, self.table.v_max)
         strokes[:, THETA] = np.clip(strokes[:, THETA], 0.0, self.table.theta_max)
         worths = yield from self._asked(shots, copies, strokes, judged=True)
-        return np.concatenate(worths).reshape(len(shots), copies)
+        return self._borne_out(shots, np.concatenate(worths).reshape(len(shots), copies))
+
+    def _borne_out(self, shots: Shots, worths: Floats) -> Floats:
+        """The worths (k, copies), those of safeties as games bear them out."""
+        if self._safety is None:
+            return worths
+        return np.where((shots.ball == SAFETY_CALL)[:, None], self._safety.of(worths), worths)
 
     def _asked(self, shots: Shots, copies: int, strokes: Floats, *, judged: bool) -> Thinking[list[Answer]]:
         """The answers about strokes, `copies` of each, in parts between which a clock is looked at."""

@@ -54,7 +54,7 @@ def thought_about(rules: EightBall, game: Game, noise: float | NoiseModel, optio
     chance = np.random.default_rng(seed)
     budget = Budget(Pace(), options.shots, math.inf if options.shots else options.seconds)
     kitchen = game.cue_ball_in_hand is CueBallArea.KITCHEN
-    evaluator = Evaluator(rules.table, values, noise, chance, budget, kitchen, options.even_draws)
+    evaluator = Evaluator(rules.table, values, noise, chance, budget, kitchen, options)
     turn = TurnSearch(rules, game, evaluator, options, chance)
     return answered(turn.best(), Responder(rules.table, values, physics.simulate_batch))
 

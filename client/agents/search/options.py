@@ -31,7 +31,7 @@ class Options(Value):
         safeties: consider everything beside straight pots. ways: play a pot in many ways, not in two.
         banks: aim banks, kicks, combinations and caroms, not only come upon them. jumps: over balls, where balls fly.
         polish: look for better strokes near the best ones. even_draws: play copies under draws of the noise that are
-            spread evenly, not under independent ones.
+            spread evenly, not under independent ones. safety_odds: reckon safeties as games bear them out.
 
     Raises:
         FieldError: an option that does not exist, or a value that is not allowed.
@@ -46,3 +46,4 @@ class Options(Value):
     jumps: Switch = True
     polish: Switch = True
     even_draws: Switch = True
+    safety_odds: Switch = True
