@@ -77,7 +77,7 @@ def _sides(folder: Path, tree: Path) -> Iterator[list[Side]]:
 
         sides: list[Side] = []
         sides.append(begun("0.1.0", "server", tree=tree))
-        sides.append(begun("now", "server"))
+        sides.append(begun("now", "server", GROUP_COMMIT="false"))
         sides.append(begun("now, group_commit", "server", GROUP_COMMIT="true"))
         sides.append(begun(BARE, "benchmarks.bare_endpoint", "--answer", str(ANSWER), "--store", str(STORED)))
         yield sides

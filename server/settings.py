@@ -52,7 +52,7 @@ class Settings:
     )
     database_seconds: float = setting(5.0, "a writer waits so long for an SQLite file that another process has locked")
     group_commit: bool = setting(
-        False,
+        True,
         "on SQLite, whether strokes and polls that arrive together are carried out in one transaction, with one flush",
     )
     registration: str = setting("open", "who may register agents: `open`, `invited`, `closed`", one_of=REGISTRATIONS)
