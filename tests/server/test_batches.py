@@ -1,7 +1,10 @@
 """Strokes and polls in a batch (`group_commit`): each is carried out, refused or fails as it would alone."""
 
 import asyncio
+import contextlib
 import json
+import threading
+from collections.abc import AsyncIterator
 from functools import partial
 from typing import Any
 
@@ -17,6 +20,8 @@ from server.services.runtime import batches as batches_module
 from server.services.runtime.batches import Batches
 
 BREAK = {"v": 8.0, "phi": 270.0, "theta": 5.0, "a": 0.0, "b": 0.0}
+
+WITHIN = 120.0
 
 
 @pytest.fixture
@@ -45,15 +50,34 @@ def together(stage, *requests):
     return carried_out(stage, *(partial(strokes.attempt_of, stage.context, *each) for each in requests))
 
 
+@contextlib.asynccontextmanager
+async def held(stage: Stage) -> AsyncIterator[Batches]:
+    """Batches at work whose thread waits as long as the block lasts: who comes meanwhile is carried out together."""
+    entered, released = threading.Event(), threading.Event()
+
+    def wait(connection: Any) -> Any:
+        entered.set()
+        assert released.wait(WITHIN)
+        raise Unauthorized("no token")
+
+    batches = Batches(stage.context)
+    async with batches.running():
+        holding = asyncio.ensure_future(batches.carry_out(partial(strokes.attempt_of, stage.context, "game", wait)))
+        assert await asyncio.to_thread(entered.wait, WITHIN)
+        yield batches
+        released.set()
+        with pytest.raises(Unauthorized):
+            await holding
+
+
 def carried_out(stage, *begun):
     """What becomes of requests that are all there when the batches' thread looks: a value or an exception each."""
 
     async def all_of_them() -> Any:
-        batches = Batches(stage.context)
-        waiting = asyncio.gather(*map(batches.carry_out, begun), return_exceptions=True)
-        await asyncio.sleep(0)  # each is put in the queue
-        async with batches.running():
-            return await waiting
+        async with held(stage) as batches:
+            waiting = asyncio.gather(*map(batches.carry_out, begun), return_exceptions=True)
+            await asyncio.sleep(0)  # each is put in the queue
+        return await waiting
 
     return asyncio.run(all_of_them())
 
@@ -177,13 +201,12 @@ def test_who_hangs_up_has_his_stroke_stored_and_hurts_nobody(stage):
     first, second = games(stage, 2)
 
     async def hung_up() -> Any:
-        batches = Batches(stage.context)
         begun = (partial(strokes.attempt_of, stage.context, *broken_off(stage, seats)) for seats in (first, second))
-        gone, stays = (asyncio.create_task(batches.carry_out(each)) for each in begun)
-        await asyncio.sleep(0)
-        gone.cancel()
-        async with batches.running():
-            return await stays
+        async with held(stage) as batches:
+            gone, stays = (asyncio.create_task(batches.carry_out(each)) for each in begun)
+            await asyncio.sleep(0)
+            gone.cancel()
+        return await stays
 
     assert asyncio.run(hung_up()).status == 200
     assert [len(strokes_of(stage, seats)) for seats in (first, second)] == [1, 1]

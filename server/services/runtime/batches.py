@@ -40,6 +40,7 @@ class Batches:
     def __init__(self, context: Context) -> None:
         self._context = context
         self._came: queue.SimpleQueue[_Request | None] = queue.SimpleQueue()
+        self._is_running = False
 
     @contextlib.asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
@@ -51,20 +52,25 @@ class Batches:
         threads = [threading.Thread(target=self._work, args=(loop,), name="batches") for _ in range(THREADS)]
         for thread in threads:
             thread.start()
+        self._is_running = True
         try:
             yield
         finally:
+            self._is_running = False
             for _ in threads:
                 self._came.put(None)
             for thread in threads:
                 await asyncio.to_thread(thread.join)
 
     async def carry_out(self, begun: Callable[[], Steps[T, Any]]) -> T:
-        """What comes of a request; begun again as long as somebody else is faster."""
+        """What comes of a request; begun again as long as somebody else is faster.
+
+        An application whose lifespan nobody runs has no threads for batches: each request then has one of its own.
+        """
         while True:
             with contextlib.suppress(Overtaken):
                 steps = begun()
-                if not self._context.database.shares_commits:
+                if not self._is_running:
                     return await run_in_threadpool(steps.carried_out)
                 request = _Request(steps)
                 self._came.put(request)
