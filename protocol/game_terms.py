@@ -19,9 +19,9 @@ class GameTerms(Message):
         table: every parameter of the table.
         noise: its level is null when the players are not told.
         budget: of simulated shots; null when any number may be simulated.
-        dry_visits_limit: after so many visits without a ball pocketed the rack is replayed (R49).
-        replays_limit: after so many replays the next stalemate draws the game.
-        strokes_limit: after so many strokes the game is drawn.
+        dry_visits_limit: visits in a row without a ball pocketed, after which the rack is replayed (R49).
+        replays_limit: replays of a rack, after which the next stalemate draws the game.
+        strokes_limit: strokes, after which the game is drawn.
         commitment: to the secrets of the match and its terms (docs/protocol.md, Commitment).
     """
 

@@ -34,6 +34,6 @@ class GameSummary(Message):
 
 
 class GameAnswer(GameSummary):
-    """``GET /v1/games/{id}``: the game as a spectator sees it, or as the caller does who plays in it."""
+    """``GET /v1/games/{id}``: the game as its player sees it when a player asks, else as a spectator sees it."""
 
     view: View

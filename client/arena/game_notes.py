@@ -75,7 +75,7 @@ class Notes:
 
 
 def _complete_lines(path: Path) -> list[str]:
-    """The lines that are whole; what a power cut left of a line is none."""
+    """The whole lines of a file; a line that a power cut left unfinished is dropped."""
     try:
         whole = path.read_bytes().rpartition(b"\n")[0]
     except FileNotFoundError:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def read_position(file: Path) -> "Game":
-    """The position in a file; leaves the command when it is none."""
+    """The position in a file. The command ends if the file holds none."""
     from pydantic import ValidationError
 
     from protocol import Position

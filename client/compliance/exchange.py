@@ -11,7 +11,7 @@ class Exchange:
     """A request and its answer, as the agent saw them.
 
     Attributes:
-        at: s, `time.monotonic`, when the request was complete. done: when it was answered.
+        at: when the request was complete, s, by `time.monotonic`. done: when it was answered, likewise.
         method, path, query, headers, body: of the request; header names in lower case.
         status: of the answer; 0 when the connection was cut.
         code: of the problem, if it was one. answer: the body.
@@ -43,7 +43,7 @@ class Exchange:
 
 
 def code_of(status: int, answer: bytes) -> str | None:
-    """The problem's code in an answer that is none of success."""
+    """The code of the problem in an answer; None when it reports success, or no code."""
     if status < 400:
         return None
     try:

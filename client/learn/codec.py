@@ -99,7 +99,7 @@ def act(table: Table, game: Game, vector: NDArray[np.floating]) -> Action:
     """The legal action that a vector of `ACTION_SIZE` numbers stands for; those beyond [-1, 1] count as the bound.
 
     Raises:
-        ValueError: another shape, or a number that is none.
+        ValueError: the action has another shape, or holds NaN.
     """
     if game.decisions:
         share = _shares(np.asarray(vector)[None], 1)[0, CHOICE]

@@ -91,7 +91,7 @@ class Games:
         """One action in each of these games, (m, ACTION_SIZE) numbers, those beyond [-1, 1] counting as the bound.
 
         Raises:
-            ValueError: a number that is none, or a table on which the cue is blocked in every direction.
+            ValueError: an action holds NaN, or the cue is blocked in every direction.
         """
         count = len(rows)
         asked = np.ascontiguousarray(vectors, np.float64)

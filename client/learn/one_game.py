@@ -32,7 +32,7 @@ class OneGame:
         """One action of the player in turn.
 
         Raises:
-            ValueError: another shape, or a number that is none.
+            ValueError: the action has another shape, or holds NaN.
         """
         vector = np.asarray(action)
         if vector.shape != (ACTION_SIZE,):

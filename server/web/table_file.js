@@ -26,7 +26,7 @@ export async function readTableFile(file) {
  */
 export function valuesOf(text, name) {
   /** @type {Record<string, string | number | boolean>} */
-  const values = {};
+  const values = Object.create(null); // where no name stands from the start: not `constructor` either
   for (const [place, line] of text.split(/\r?\n/).map((one) => one.trim()).entries()) {
     if (!line || line.startsWith("#")) continue;
     const found = LINE.exec(line);

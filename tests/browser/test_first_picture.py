@@ -10,6 +10,7 @@ from support.play_along import play_on
 from referee.game.outcome import EndReason
 from server.services.watch.page_words import ending_in_words, noise_in_words, table_in_words
 
+PATIENCE = 300.0
 SIZES = [(390, 844), (844, 390), (768, 1024), (1280, 800), (1920, 1080)]
 TABLE = ".first-picture svg:visible"
 ABOVE = "() => [...document.querySelectorAll('.heading, .side')].map((one) => one.innerText.trim())"
@@ -58,7 +59,9 @@ def games(server: Any) -> dict[str, str]:
     headers = {"If-Match": f'"{view["version"]}"'}
     answer = server.send("POST", f"/v1/games/{game}/concede", over.tokens[seat], headers=headers)
     assert answer.status_code == 200, answer.text
+    end = time.monotonic() + PATIENCE
     while server.http.get(f"/games/{jaws.game}").text.count("disconnected") < 2:
+        assert time.monotonic() < end, "both players have left"
         time.sleep(0.1)  # else somebody who has just polled leaves while the test looks
     return {"begun": begun.game, "grouped": grouped.game, "jaws": jaws.game, "over": game}
 

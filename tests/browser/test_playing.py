@@ -488,6 +488,8 @@ def own_turn(hand: Hand, game: str) -> View | None:
         ('name = "nine_foot"\nmu_slide: 0.2\n', "line 2: must be name = value"),
         ('name = "nine_foot"\nmu_slide = 0.2\nmu_slide = 0.3\n', "line 3: mu_slide stands there twice"),
         ('name = "round"\n', "must be one of"),
+        ('name = "nine_foot"\nconstructor = 1\n', "constructor"),
+        ('name = "nine_foot"\n__proto__ = 1\n', "__proto__"),
         ('name = "nine_foot"\ne_cushion = 7.5\n', "e_cushion"),
         ("#" * 70_000, "at most 65536 bytes"),
     ],

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from client.agents.search.budget import Budget, TimeUp
 from client.agents.search.draws import independent_normals, spread_normals
 from client.agents.search.odds import safety_odds
-from client.agents.search.options import Options
+from client.agents.search.options import USUAL, Options
 from client.agents.search.shots import THETA, Floats, Groups, Integers, Shots, V
 from client.agents.search.value import Values
 from physics import Batch, Table
@@ -155,7 +155,7 @@ class Evaluator:
         chance: np.random.Generator,
         budget: Budget,
         kitchen: bool,
-        options: Options = Options(),  # noqa: B008
+        options: Options = USUAL,
     ) -> None:
         self.table, self.values, self.budget = table, values, budget
         model = NoiseModel.of(noise)

@@ -1,6 +1,6 @@
 """What `search` can be told: `search:seconds=0.3,safeties=off`."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Final
 
 from pydantic import BeforeValidator
 from pydantic_core import core_schema
@@ -47,3 +47,7 @@ class Options(Value):
     polish: Switch = True
     even_draws: Switch = True
     safety_odds: Switch = True
+
+
+USUAL: Final = Options()
+"""The agent as it is shipped."""

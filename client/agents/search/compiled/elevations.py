@@ -46,7 +46,7 @@ def over_cushion(start, step, line, rise, length):
 
 @compiled
 def elevations(table, positions, which, strokes, aside, out):
-    """Least elevation (deg) at which the cue stays free, also `aside` (deg) to either side; NaN if there is none.
+    """The least elevation, deg, at which nothing blocks the cue, turned by `aside` (deg) to either side too; else NaN.
 
     Args:
         which: (n,) row of `positions`. strokes: (phi in deg, a in mm, b in mm), each (n,).

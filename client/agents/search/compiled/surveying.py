@@ -1,4 +1,4 @@
-"""What the balls of both groups offer to the player who shoots next."""
+"""Surveys of tables: how hard each group's balls are to make, and the best pots of the player who shoots next."""
 
 import math
 from typing import NamedTuple
@@ -68,7 +68,7 @@ def survey_group(view, memory, group, sigma, task, out):
 
 @compiled
 def survey(table, positions, sigma, hand, kitchen, memory, out):
-    """What the balls offer to whoever shoots next, by group.
+    """What the balls of each group offer to the player who shoots next.
 
     Args:
         sigma: rad, of the cue's direction.
