@@ -217,7 +217,7 @@ def test_an_earlier_stroke_is_looked_at_without_a_stroke_by_mistake(new_page, se
     page.get_by_role("button", name="Back to your shot").wait_for()
     assert not page.get_by_role("button", name="Shoot", exact=True).is_visible()
     page.get_by_role("button", name="Back to your shot").click()
-    assert page.get_by_role("button", name="Shoot", exact=True).is_visible()
+    page.get_by_role("button", name="Shoot", exact=True).wait_for()
 
 
 def test_nothing_is_told_of_a_stroke_that_still_rolls(page, server):

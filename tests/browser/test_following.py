@@ -143,7 +143,7 @@ def test_a_game_is_shown_in_a_frame_of_those_who_may(new_page, own_server_in_fra
     around.goto(f"{origin}/page.html")
     inside = around.frame_locator("iframe")
     inside.get_by_role("heading", level=1).filter(has_text="framed ann").wait_for()
-    assert inside.locator(".table canvas").is_visible()
+    inside.locator(".table canvas").wait_for()  # the heading is in the page before the script has begun
     assert not inside.locator("header.bar").is_visible()
     table, around_it = inside.locator(".table canvas").bounding_box(), around.locator("iframe").bounding_box()
     assert table["y"] + table["height"] <= around_it["y"] + around_it["height"], "seen without scrolling"

@@ -177,7 +177,7 @@ def test_nothing_moves_by_itself_for_who_asked_so(new_page, server):
     page.get_by_role("heading", level=1).filter(has_text="–").wait_for()
     play_on(match)
     page.locator(".row[aria-current]").wait_for()
-    assert page.get_by_role("button", name="Play", exact=True).is_visible()
+    page.get_by_role("button", name="Play", exact=True).wait_for()
     end = float(page.get_by_label("Time of the stroke").get_attribute("max"))
     page.locator("output.time", has_text=f"{end:.2f} s").wait_for()
 
@@ -199,6 +199,6 @@ def test_the_reference_of_the_interface_is_read_in_a_browser(new_page, server):
     page.get_by_role("heading", name="POST /v1/simulate Simulate one shot").wait_for()
     page.locator("#post-v1-simulate").get_by_role("link", name="SimulateAnswer").click()
     page.locator("#SimulateAnswer").get_by_role("link", name="FactsView").click()
-    assert page.locator("#FactsView").get_by_text("first_contact_cue_ball", exact=True).first.is_visible()
+    page.locator("#FactsView").get_by_text("first_contact_cue_ball", exact=True).first.wait_for()
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert violations(page) == []

@@ -387,7 +387,7 @@ def test_a_late_preview_leaves_text_and_error_to_who_writes_a_notation(human, la
     page.get_by_text("events in").wait_for()
     if late == "before it is read":
         set_up.click()
-    assert page.get_by_text("is no ball").is_visible()
+    page.get_by_text("is no ball").wait_for()
     assert page.get_by_label("Text", exact=True).input_value() == "3:x"
 
 
