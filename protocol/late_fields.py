@@ -1,17 +1,19 @@
 """Fields of a view that are made when somebody reads them: they cost more than a name."""
 
 from collections.abc import Callable, Sequence
-from typing import Final, NamedTuple
+from dataclasses import dataclass, field
+from typing import Final
 
 from physics.table import Table
 from protocol.allowed import Allowed, Area
 from protocol.game_terms import GameTerms
 from protocol.outcomes import OutcomeView
 from protocol.strokes import StrokeView
-from referee.game import Game, Phase, legal
+from referee.game import Game, Legal, Phase, legal
 
 
-class LateFields(NamedTuple):
+@dataclass(slots=True)
+class LateFields:
     """What makes the fields of a view that cost more than a name: a method for each of `LATE`.
 
     Attributes:
@@ -22,6 +24,7 @@ class LateFields(NamedTuple):
     game: Game
     table: Table
     strokes: Sequence[StrokeView] | Callable[[], Sequence[StrokeView]]
+    _legal: Legal | None = field(default=None, init=False)
 
     def why(self) -> str:
         """Say in a sentence why it is whose turn."""
@@ -32,11 +35,16 @@ class LateFields(NamedTuple):
 
     def allowed(self) -> Allowed:
         """See `View`."""
-        return Allowed.of(legal(self.game))
+        return Allowed.of(self._admitted())
 
     def callable_balls(self) -> tuple[int, ...]:
         """See `View`."""
-        return legal(self.game).callable
+        return self._admitted().callable
+
+    def _admitted(self) -> Legal:
+        if self._legal is None:
+            self._legal = legal(self.game)
+        return self._legal
 
     def cue_ball_area(self) -> Area | None:
         """See `View`."""

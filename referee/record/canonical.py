@@ -27,8 +27,9 @@ _INFINITE_OR_NAN: Final = re.compile(rb"g.{6}[\xf0-\xff][\x7f\xff]", re.DOTALL)
 """A double whose exponent is all ones, or bytes that look like one: looked at closely, nothing is lost."""
 _WHOLE: Final = re.compile(rb"\.0(?=[\],}])")
 _NEGATIVE_ZERO: Final = re.compile(rb"-0(?=[\],}])")
-_EXPONENT: Final = re.compile(rb"e[-+]?[0-9]+(?=[\],}])")
-"""How the numbers end that the RFC writes otherwise. Each begins with a letter, which is looked for fast."""
+_EXPONENT: Final = re.compile(rb"e(?:-6|\+?[0-9]+)(?=[\],}])")
+"""How the numbers end that the RFC writes otherwise. Each begins with a letter, which is looked for fast. With
+exponents from -7 down both write the same."""
 
 
 def canonical(value: Any) -> str:

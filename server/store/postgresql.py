@@ -5,6 +5,7 @@ from typing import Any, Final
 from sqlalchemy import Engine, create_engine, event
 from sqlalchemy.engine import make_url
 
+from server.store import stored_json
 from server.store.outages import QUEUE_SECONDS
 
 SCHEME = "postgresql://"
@@ -44,6 +45,7 @@ def engine(url: str) -> Engine:
         max_overflow=POOL_OVERFLOW,
         pool_timeout=QUEUE_SECONDS,
         isolation_level="READ COMMITTED",
+        **stored_json.BY,
     )
     event.listen(made, "connect", _bound_waits)
     return made

@@ -16,7 +16,6 @@ from server.errors import NotFound, OutOfTime, StaleVersion, Unauthorized, Unava
 from server.security.callers import Caller
 from server.services.play import history, live_game, strokes, turns
 from server.services.play.long_strokes import IsLong
-from server.services.runtime import batches as batches_module
 from server.services.runtime.batches import Batches
 
 BREAK = {"v": 8.0, "phi": 270.0, "theta": 5.0, "a": 0.0, "b": 0.0}
@@ -25,8 +24,7 @@ WITHIN = 120.0
 
 
 @pytest.fixture
-def stage(tmp_path, monkeypatch):
-    monkeypatch.setattr(batches_module, "THREADS", 1)
+def stage(tmp_path):
     made = Stage(tmp_path / "batches.db", group_commit=True)
     yield made
     made.close()

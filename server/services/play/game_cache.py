@@ -5,9 +5,8 @@ from typing import Final
 
 from sqlalchemy import Connection
 
-from server.services.play.live_game import LiveGame, find_row, read
+from server.services.play.live_game import LiveGame, clock_of, find_row, read
 from server.services.runtime.cache import VersionedCache
-from server.store.rows import GameRow
 
 MOST_KEPT: Final = 4096
 """Games, about 40 kB each: more than a server plays at once, or each stroke would read its game anew."""
@@ -19,16 +18,12 @@ class GameCache:
     def __init__(self) -> None:
         self._latest = VersionedCache[LiveGame](MOST_KEPT, lambda live: live.row.version)
 
-    def find(self, connection: Connection, game_id: str) -> LiveGame:
-        """The game as it is committed (never from a transaction that has written); raises `NotFound`."""
-        return self.of(connection, find_row(connection, game_id))
-
-    def of(self, connection: Connection, row: GameRow, *, is_committed: bool = True) -> LiveGame:
-        """The game whose row this is; remembered where that is known to be as it was committed."""
-        known = self._latest.get(row.id)
-        if known is not None and known.row.version == row.version:
+    def find(self, connection: Connection, game_id: str, *, is_committed: bool = True) -> LiveGame:
+        """The game with this id, remembered where it is known to be as it was committed; raises `NotFound`."""
+        known = self._latest.get(game_id)
+        if known is not None and (row := clock_of(connection, known.row)) is not None:
             return replace(known, row=row)
-        live = read(connection, row)
+        live = read(connection, find_row(connection, game_id))
         if is_committed:
             self.keep(live)
         return live

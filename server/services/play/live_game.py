@@ -194,6 +194,11 @@ class LiveGame:
 
 
 _GAME: Final = Prepared(select(games).where(games.c.id == bindparam("id")))
+_CLOCK: Final = Prepared(
+    select(*(games.c[name] for name in columns.COLUMNS), games.c.simulated_0, games.c.simulated_1).where(
+        games.c.id == bindparam("id"), games.c.version == bindparam("version")
+    )
+)
 _FIRST, _SECOND = agents.alias(), agents.alias()
 _MATCH: Final = Prepared(
     select(matches, _FIRST.c.name.label("name_0"), _SECOND.c.name.label("name_1"))
@@ -214,6 +219,12 @@ def find_row(connection: Connection, game_id: str) -> GameRow:
     if row is None:
         raise NotFound(f"there is no game {game_id}")
     return GameRow.of(row)
+
+
+def clock_of(connection: Connection, known: GameRow) -> GameRow | None:
+    """A game's row with what may change while its version stays, read anew; None when it has another version."""
+    row = _CLOCK.first(connection, id=known.id, version=known.version)
+    return None if row is None else replace(known, **row._asdict())
 
 
 def read(connection: Connection, row: GameRow) -> LiveGame:

@@ -18,8 +18,8 @@ from server.store.tables import moves
 MOST_EVENTS: Final = 500
 """Of a stroke that is stored once. Beyond, a summary of 3 kB stands beside a line of 100 kB and more."""
 
-LEVEL: Final = 1
-"""Of compression: a line becomes a third as long, in a hundredth of the time that a stroke takes; more takes longer."""
+LEVEL, WINDOW_BITS, MEMORY_LEVEL = 1, 13, 6
+"""Of compression: a line becomes half as long. More takes longer; so does more memory, which is cleared each time."""
 
 _IS_ALONE: Final = cast(moves.c.stroke, Text) == "null"
 SUMMED: Final = (
@@ -35,7 +35,8 @@ DECIDES: Final = '{"action":{"decision":'
 
 def columns(line: str, summary: Mapping[str, Any] | None) -> dict[str, Any]:
     """The columns of `moves` that say what happened: the record's line, and a `StrokeDetail` without events or None."""
-    return {"line": "", "packed": zlib.compress(line.encode(), LEVEL), "stroke": summary}
+    packing = zlib.compressobj(LEVEL, zlib.DEFLATED, WINDOW_BITS, MEMORY_LEVEL)
+    return {"line": "", "packed": packing.compress(line.encode()) + packing.flush(), "stroke": summary}
 
 
 def line(row: Row[Any]) -> str:

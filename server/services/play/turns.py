@@ -17,7 +17,6 @@ from server.services.runtime.context import Context, Writing
 from server.services.runtime.steps import Done, Steps
 from server.store.locks import hold_match_of, is_shared, only_one
 from server.store.prepared import Prepared
-from server.store.rows import GameRow
 from server.store.tables import games, notices
 
 Sender = Callable[[Connection], Caller]
@@ -147,7 +146,7 @@ def _look(context: Context, connection: Connection, agent: str) -> _Look:
         return _Look()
     if not turn.delivered:
         return _Look(is_new=True)
-    return _Look(_message(connection, context.seen.of(connection, turn), agent, now))
+    return _Look(_message(connection, context.seen.find(connection, turn.id), agent, now))
 
 
 def _delivered(writing: Writing, agent: str) -> bytes | None:
@@ -160,7 +159,7 @@ def _delivered(writing: Writing, agent: str) -> bytes | None:
         turn = _waiting_turn(connection, agent, now, turn.id)  # as it is now that nobody else changes it
     if turn is None:
         return None
-    message = _turn_begun(writing, writing.context.seen.of(connection, turn, is_committed=False), agent)
+    message = _turn_begun(writing, writing.context.seen.find(connection, turn.id, is_committed=False), agent)
     writing.context.failpoint("turn-delivered")
     return message
 
@@ -175,7 +174,7 @@ _NOTICE_DELIVERED: Final = Prepared(
     update(notices).where(notices.c.sequence == bindparam("this")).values(delivered_at=bindparam("now"))
 )
 _TURNS: Final = (
-    select(games)
+    select(games.c.id, games.c.delivered)
     .where(games.c.mover == bindparam("agent"), games.c.deadline > bindparam("now"))
     .order_by(games.c.delivered, games.c.available_at)
     .limit(1)
@@ -196,13 +195,17 @@ def _new(connection: Connection, agent: str) -> Row[Any] | None:
     return _news(connection, agent)
 
 
-def _waiting_turn(connection: Connection, agent: str, now: int, game_id: str | None = None) -> GameRow | None:
-    """A turn not delivered yet goes before one that was; one whose time is out waits for the timer alone."""
+def _waiting_turn(connection: Connection, agent: str, now: int, game_id: str | None = None) -> Row[Any] | None:
+    """The game of a turn, and whether that was delivered.
+
+    One not delivered yet goes before one that was; one whose time is out waits for the timer alone.
+    """
+    row: Row[Any] | None
     if game_id is None:
         row = _WAITING.first(connection, agent=agent, now=now)
     else:
         row = _WAITING_IN.first(connection, agent=agent, now=now, game=game_id)
-    return None if row is None else GameRow.of(row)
+    return row
 
 
 def _turn_begun(writing: Writing, live: LiveGame, agent: str) -> bytes:

@@ -28,9 +28,6 @@ from server.store.outages import Overtaken
 
 log = logging.getLogger("pooliad.server.batches")
 
-THREADS: Final = 2
-"""While one waits for the disk the other works."""
-
 T = TypeVar("T")
 
 
@@ -44,23 +41,24 @@ class Batches:
 
     @contextlib.asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
-        """Threads at work for as long as the block lasts."""
+        """A thread at work for as long as the block lasts.
+
+        One: a second, which could work while the first waits for the disk, fights with it for the interpreter, and a
+        stroke then takes half as much time again.
+        """
         if not self._context.database.shares_commits:
             yield
             return
         loop = asyncio.get_running_loop()
-        threads = [threading.Thread(target=self._work, args=(loop,), name="batches") for _ in range(THREADS)]
-        for thread in threads:
-            thread.start()
+        thread = threading.Thread(target=self._work, args=(loop,), name="batches")
+        thread.start()
         self._is_running = True
         try:
             yield
         finally:
             self._is_running = False
-            for _ in threads:
-                self._came.put(None)
-            for thread in threads:
-                await asyncio.to_thread(thread.join)
+            self._came.put(None)
+            await asyncio.to_thread(thread.join)
 
     async def carry_out(self, begun: Callable[[], Steps[T, Any]]) -> T:
         """What comes of a request; begun again as long as somebody else is faster.

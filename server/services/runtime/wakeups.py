@@ -4,6 +4,7 @@ A hint is never the news itself: who wakes looks it up. A hint that is lost cost
 """
 
 import asyncio
+import threading
 from collections import defaultdict
 from collections.abc import Iterable
 
@@ -21,6 +22,8 @@ class Wakeups:
     def __init__(self) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._waiting: defaultdict[str, set[asyncio.Event]] = defaultdict(set)
+        self._told: set[str] = set()
+        self._lock = threading.Lock()
         self.draining = asyncio.Event()
         self.outgoing: asyncio.Queue[str] | None = None
 
@@ -29,16 +32,22 @@ class Wakeups:
         self._loop = asyncio.get_running_loop()
 
     def notify(self, agents: Iterable[str]) -> None:
-        """Wake everybody who waits for one of these agents."""
-        if self._loop is not None:
-            self._loop.call_soon_threadsafe(self._tell, tuple(agents))
+        """Wake everybody who waits for one of these agents; one call of the loop does for many that come together."""
+        if self._loop is None:
+            return
+        with self._lock:
+            is_called, self._told = bool(self._told), self._told.union(agents)
+        if not is_called:
+            self._loop.call_soon_threadsafe(self._tell)
 
     def drain(self) -> None:
         """Send every waiting caller home: the server is stopping. Called on the loop."""
         self.draining.set()
         self.wake(tuple(self._waiting))
 
-    def _tell(self, agents: tuple[str, ...]) -> None:
+    def _tell(self) -> None:
+        with self._lock:
+            agents, self._told = self._told, set()
         self.wake(agents)
         if self.outgoing is not None:
             for agent in agents:

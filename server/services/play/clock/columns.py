@@ -13,6 +13,11 @@ HELD: Final = 2**62
 """A time that never comes (ns since 1970, in the year 2116): what waits for the server to listen is dated here."""
 COMPARED: Final = ("delivered", "available_at", "clock_from", "carried", "carried_grace", "present_0", "present_1")
 """Columns of a clock that may change while a game's version stays."""
+COLUMNS: Final = (
+    *(f"{name}_{seat}" for name in ("used", "lag", "grace", "present") for seat in (0, 1)),
+    *("delivered", "available_at", "clock_from", "carried", "carried_grace", "deadline"),
+)
+"""What `written` gives."""
 
 
 def read(row: GameRow, match: Row[Any], turn: int | None) -> GameClock:
