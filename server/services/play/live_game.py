@@ -86,6 +86,7 @@ class LiveGame:
     fixture: Fixture
     game: Game
     recent: tuple[StrokeView, ...] = ()
+    _clock: GameClock | None = field(default=None, init=False, repr=False, compare=False)
 
     @property
     def id(self) -> str:
@@ -120,7 +121,11 @@ class LiveGame:
     @property
     def clock(self) -> GameClock:
         """Both players' clocks, and the turn that runs."""
-        return columns.read(self.row, self.match, self.game.turn if self.is_running else None)
+        if self._clock is None:  # a stroke asks for it four times
+            clock = columns.read(self.row, self.match, self.game.turn if self.is_running else None)
+            object.__setattr__(self, "_clock", clock)
+            return clock
+        return self._clock
 
     def seat_of(self, caller: Caller) -> int:
         """The caller's seat; raises `Forbidden` for anybody but the two players."""
