@@ -40,6 +40,7 @@ BENCHMARKS = {
     "stroke_costs": "a stroke over HTTP, and a turn by long poll, beside version 0.1.0 and a bare endpoint, in one run",
     "growth": "lists, strokes and a start in a database of 10^5 finished games, beside a new one",
     "spectators": "what a stroke costs the server when 100 watch the game",
+    "kills": "a server killed again and again under load: is anything lost, doubled or different?",
     "soak": "thousands of games through the SDK and HTTP: time-outs that nothing explains, and their upper bound",
 }
 """Module in this package to one line about it."""
