@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from typing import Any, Final
 
-from sqlalchemy import ColumnElement, Connection, Executable, Select, bindparam
+from sqlalchemy import ColumnElement, Connection, Executable, Select, SelectBase, bindparam
 from sqlalchemy.engine import Dialect
 from sqlalchemy.types import TypeEngine
 
@@ -117,7 +117,7 @@ class _Sent:
         self._parameters: Final = tuple(
             (name, compiled.params.get(name), _bound(kind, dialect)) for name, kind in zip(names, types, strict=True)
         )
-        columns = statement.selected_columns if isinstance(statement, Select) else ()
+        columns = statement.selected_columns if isinstance(statement, SelectBase) else ()
         self._columns: Final = tuple(_read(column.type, dialect) for column in columns)
         self._are_as_they_come: Final = not any(self._columns)
         self._row = _row_of([str(column.key) for column in columns])
