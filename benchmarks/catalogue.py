@@ -41,6 +41,7 @@ BENCHMARKS = {
     "growth": "lists, strokes and a start in a database of 10^5 finished games, beside a new one",
     "spectators": "what a stroke costs the server when 100 watch the game",
     "kills": "a server killed again and again under load: is anything lost, doubled or different?",
+    "live_games": "a stroke and the memory of a server with 2,000 live games, beside one with 100",
     "soak": "thousands of games through the SDK and HTTP: time-outs that nothing explains, and their upper bound",
 }
 """Module in this package to one line about it."""

@@ -79,7 +79,7 @@ class Side:
         began = time.perf_counter()
         self.port = self._stack.enter_context(serving("server", "--database", f"sqlite:///{self._database}"))
         self.start_wall = round(time.perf_counter() - began, 2)
-        self._process = serving_process(self.port)
+        self.process = serving_process(self.port)
         self.start_cpu = round(self.cpu(), 2)
         asyncio.run(ready(self.port))
         return self
@@ -89,7 +89,7 @@ class Side:
 
     def cpu(self) -> float:
         """CPU seconds of the server so far, by the clock of its process (clock_getcpuclockid(3))."""
-        return time.clock_gettime((~self._process << 3) | 2)
+        return time.clock_gettime((~self.process << 3) | 2)
 
 
 def serving_process(port: int) -> int:
