@@ -2,6 +2,7 @@
 
 BENCHMARKS = {
     "speed": "kernel time per event against a square root and a division; calls, traces, threads, imports",
+    "cores": "two threads against one, and what two cores give to two processes that share nothing",
     "against": "these kernels beside those of version 0.1.0 in one run: bits, instructions, time, compile time",
     "real_tables": "the nine-foot table beside the Olympiad's: time and instructions without mouths, and with jaws",
     "acceptance": "what corner and side pockets accept, by speed and approach, beside expected figures",

@@ -21,14 +21,16 @@ FEW, MANY = 100, 2_000
 MANY_OF_SHARE = 300
 """Games of a short run."""
 WIRES = 50
+PATIENT = {"NO_SHOW_SECONDS": "86400"}
+"""Settings: to begin 2,000 matches takes longer than a player may be away."""
 
 
 def measure(full: bool) -> Tables:
     """A row for each number of games."""
     with (
         tempfile.TemporaryDirectory() as name,
-        Side(Path(name) / "few.db") as few,
-        Side(Path(name) / "many.db") as many,
+        Side(Path(name) / "few.db", PATIENT) as few,
+        Side(Path(name) / "many.db", PATIENT) as many,
     ):
         halls = [Hall(few, FEW), Hall(many, MANY if full else MANY_OF_SHARE)]
         return {"live": asyncio.run(_compared(halls, 5 if full else 3))}

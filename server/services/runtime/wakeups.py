@@ -29,9 +29,14 @@ class Wakeups:
         self._loop = asyncio.get_running_loop()
 
     def notify(self, agents: Iterable[str]) -> None:
-        """Wake everybody who waits for one of these agents."""
-        if self._loop is not None:
+        """Wake everybody who waits for one of these agents; nobody does once the loop has ended."""
+        if self._loop is None:
+            return
+        try:
             self._loop.call_soon_threadsafe(self._tell, tuple(agents))
+        except RuntimeError:
+            if not self._loop.is_closed():
+                raise
 
     def drain(self) -> None:
         """Send every waiting caller home: the server is stopping. Called on the loop."""
