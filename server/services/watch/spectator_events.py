@@ -98,7 +98,7 @@ def since(
 ) -> tuple[list[SpectatorEvent], dict[str, SpectatorState]]:
     """The news about several games since they stood as known, and how those stand now that have any.
 
-    One query when nothing has happened, however many games there are; two more for each game with news.
+    One query for many games when nothing has happened; two more for each game with news.
     """
     news: list[SpectatorEvent] = []
     standings: dict[str, SpectatorState] = {}
