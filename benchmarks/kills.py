@@ -199,6 +199,8 @@ async def killed(url: str, kills: int, calm: str) -> tuple[Row, list[str]]:
         stop.set()
         await asyncio.gather(*players)
         verified = sum([await hands.look_over() for hands in load])
+        for hands in load:
+            hands.wire.close()
     with serving("server", "--database", calm) as port:
         await ready(port)
         await asyncio.gather(*(_without_kills(port, number, hands) for number, hands in enumerate(load)))
