@@ -2,6 +2,7 @@
 
 BENCHMARKS = {
     "speed": "kernel time per event against a square root and a division; calls, traces, threads, imports",
+    "cores": "two threads against one, and what two cores give to two processes that share nothing",
     "against": "these kernels beside those of version 0.1.0 in one run: bits, instructions, time, compile time",
     "real_tables": "the nine-foot table beside the Olympiad's: time and instructions without mouths, and with jaws",
     "acceptance": "what corner and side pockets accept, by speed and approach, beside expected figures",
@@ -40,6 +41,8 @@ BENCHMARKS = {
     "stroke_costs": "a stroke over HTTP, and a turn by long poll, beside version 0.1.0 and a bare endpoint, in one run",
     "growth": "lists, strokes and a start in a database of 10^5 finished games, beside a new one",
     "spectators": "what a stroke costs the server when 100 watch the game",
+    "kills": "a server killed again and again under load: is anything lost, doubled or different?",
+    "live_games": "a stroke and the memory of a server with 2,000 live games, beside one with 100",
     "soak": "thousands of games through the SDK and HTTP: time-outs that nothing explains, and their upper bound",
 }
 """Module in this package to one line about it."""

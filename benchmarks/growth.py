@@ -11,6 +11,7 @@ import json
 import statistics
 import tempfile
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -69,17 +70,17 @@ def measure(full: bool) -> Tables:
 
 
 class Side:
-    """A server on one database."""
+    """A server on one database, with settings of its own."""
 
-    def __init__(self, database: Path) -> None:
-        self.what, self._database = database.stem, database
+    def __init__(self, database: Path, settings: Mapping[str, str] | None = None) -> None:
+        self.what, self._database, self._settings = database.stem, database, settings
         self._stack = contextlib.ExitStack()
 
     def __enter__(self) -> "Side":
         began = time.perf_counter()
-        self.port = self._stack.enter_context(serving("server", "--database", f"sqlite:///{self._database}"))
+        self.port = self._stack.enter_context(self._serving())
         self.start_wall = round(time.perf_counter() - began, 2)
-        self._process = serving_process(self.port)
+        self.process = serving_process(self.port)
         self.start_cpu = round(self.cpu(), 2)
         asyncio.run(ready(self.port))
         return self
@@ -87,9 +88,12 @@ class Side:
     def __exit__(self, *_: object) -> None:
         self._stack.close()
 
+    def _serving(self) -> contextlib.AbstractContextManager[int]:
+        return serving("server", "--database", f"sqlite:///{self._database}", settings=self._settings)
+
     def cpu(self) -> float:
         """CPU seconds of the server so far, by the clock of its process (clock_getcpuclockid(3))."""
-        return time.clock_gettime((~self._process << 3) | 2)
+        return time.clock_gettime((~self.process << 3) | 2)
 
 
 def serving_process(port: int) -> int:

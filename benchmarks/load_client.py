@@ -65,6 +65,7 @@ class Connection:
         return json.loads(reply.body)
 
     def close(self) -> None:
-        """Hang up."""
+        """Hang up; what is sent next gets a connection of its own."""
+        self._used = -math.inf
         if self._writer is not None:
             self._writer.close()

@@ -60,8 +60,21 @@ class Unread:
 
 def http_protocol(settings: Settings) -> type[OneAtATime]:
     """uvicorn's protocol, bounded: the class, with what the connections of one server share."""
-    members = {"settings": settings, "open_by_address": Counter(), "unread": Unread(settings.held_answers)}
+    unread = Unread(settings.held_answers)
+    members = {"settings": settings, "open_by_address": Counter(), "unread": unread, "frames": _Frames()}
     return type("Bounded", (_Bounded,), members)
+
+
+class _Frames:
+    """Parts of answers of unknown length as RFC 9112, 7.1 has them; the last is kept, for it often goes to many."""
+
+    _part = _framed = b""
+
+    def of(self, part: bytes) -> bytes:
+        """The part, framed."""
+        if part is not self._part:
+            self._part, self._framed = part, b"%x\r\n%b\r\n" % (len(part), part)
+        return self._framed
 
 
 class _Bounded(OneAtATime):
@@ -70,6 +83,7 @@ class _Bounded(OneAtATime):
     settings: ClassVar[Settings]
     open_by_address: ClassVar[Counter[str]]
     unread: ClassVar[Unread]
+    frames: ClassVar[_Frames]
     _deadline: asyncio.TimerHandle | None = None
     _reading: asyncio.TimerHandle | None = None
     _address: str | None = None
@@ -125,14 +139,14 @@ class _Bounded(OneAtATime):
         extensions[GONE] = partial(getattr, self.cycle, "disconnected")
 
     def _write_part(self, cycle: RequestResponseCycle, part: bytes) -> bool:
-        """Write part of an answer of unknown length, framed as RFC 9112, 7.1 has it; False when it has to wait.
+        """Write part of an answer of unknown length; False when it has to wait.
 
         Between its parts such an answer leaves no trace in the framework but that there are more to come.
         """
         is_open = self.cycle is cycle and not cycle.disconnected and not cycle.response_complete
         if not is_open or not cycle.chunked_encoding or self.transport.get_write_buffer_size():
             return False
-        self.transport.write(b"%x\r\n%b\r\n" % (len(part), part))
+        self.transport.write(self.frames.of(part))
         return True
 
     def pause_writing(self) -> None:

@@ -14,6 +14,7 @@ from protocol import (
     VoidRequest,
 )
 from server.errors import Forbidden, Invalid, NotFound, Unauthorized, WrongStatus
+from server.http.commands import Answer
 from server.http.dependencies import ANYBODY, Authenticated, ContextDep, Cursor, Limit, PageDep, Search, Sent, respond
 from server.http.describe import OWNED, describe
 from server.services.tournaments import progress, tournaments
@@ -35,7 +36,11 @@ def create(context: ContextDep, command: Sent) -> Response:
 
 
 @router.get(
-    "", **describe(Invalid, Unauthorized, token=False), dependencies=[ANYBODY], summary="Tournaments, the newest first"
+    "",
+    **describe(Invalid, Unauthorized, token=False),
+    response_model=TournamentList,
+    dependencies=[ANYBODY],
+    summary="Tournaments, the newest first",
 )
 def listing(
     context: ContextDep,
@@ -49,9 +54,9 @@ def listing(
             json_schema_extra={"enum": list(progress.STATUSES)},
         ),
     ] = None,
-) -> TournamentList:
+) -> Response:
     """Of one status when asked for."""
-    return tournaments.listing(context, status, search, after, limit)
+    return respond(Answer(200, tournaments.listing(context, status, search, after, limit)))
 
 
 @router.get(

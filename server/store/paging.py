@@ -3,9 +3,21 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
-from sqlalchemy import CompoundSelect, Row, Select, Table, select, tuple_, union_all
+from sqlalchemy import (
+    BigInteger,
+    CompoundSelect,
+    Integer,
+    Row,
+    Select,
+    String,
+    Table,
+    bindparam,
+    select,
+    tuple_,
+    union_all,
+)
 
 from server.errors import invalid_field
 
@@ -15,6 +27,7 @@ LONGEST_NUMBER, LONGEST_TIME = 15, 19
 """Digits."""
 LONGEST_ID = 64
 SEARCH = r"[^\x00-\x1f\x7f]{1,64}"
+ESCAPE = "/"
 CURSOR_ALLOWED = "the next_cursor of the page before, as it came"
 
 
@@ -49,33 +62,41 @@ def place(text: str | None) -> PagePosition | None:
     return PagePosition(int(created_at), row_id)
 
 
-def oldest_first(query: Select[Any], table: Table, after: PagePosition | None, limit: int) -> Select[Any]:
-    """The query's rows after a place, in the order they were made, one more than the page holds."""
-    if after is not None:
-        query = query.where(_key(table) > (after.created_at, after.id))
-    return query.order_by(table.c.created_at, table.c.id).limit(limit + 1)
+def oldest_first(query: Select[Any], table: Table, *, is_first: bool) -> Select[Any]:
+    """The query's rows in the order they were made, of the first page or those after a place (`values`)."""
+    if not is_first:
+        query = query.where(_key(table) > _AFTER)
+    return query.order_by(table.c.created_at, table.c.id).limit(_ROWS)
 
 
-def newest_first(query: Select[Any], table: Table, after: PagePosition | None, limit: int) -> Select[Any]:
-    """The query's rows after a place, the newest first, one more than the page holds."""
-    if after is not None:
-        query = query.where(_key(table) < (after.created_at, after.id))
-    return query.order_by(table.c.created_at.desc(), table.c.id.desc()).limit(limit + 1)
+def newest_first(query: Select[Any], table: Table, *, is_first: bool) -> Select[Any]:
+    """The same, the newest first."""
+    if not is_first:
+        query = query.where(_key(table) < _AFTER)
+    return query.order_by(table.c.created_at.desc(), table.c.id.desc()).limit(_ROWS)
 
 
-def newest_of(
-    queries: Sequence[Select[Any]], table: Table, after: PagePosition | None, limit: int
-) -> Select[Any] | CompoundSelect[Any]:
+def newest_of(queries: Sequence[Select[Any]], table: Table, *, is_first: bool) -> Select[Any] | CompoundSelect[Any]:
     """The same of the rows of several queries, no row in two of them: each is read from an index of its own, in order.
 
     One query with an OR would read and sort all its rows.
     """
     if len(queries) == 1:
-        return newest_first(queries[0], table, after, limit)
-    pages = [newest_first(query, table, after, limit).subquery() for query in queries]
+        return newest_first(queries[0], table, is_first=is_first)
+    pages = [newest_first(query, table, is_first=is_first).subquery() for query in queries]
     newest = union_all(*(select(page) for page in pages))
     order = (newest.selected_columns.created_at.desc(), newest.selected_columns.id.desc())
-    return newest.order_by(*order).limit(limit + 1)
+    return newest.order_by(*order).limit(_ROWS)
+
+
+def values(after: PagePosition | None, limit: int) -> dict[str, Any]:
+    """The parameters of such a page: one row more than it holds."""
+    place = {} if after is None else {"after_at": after.created_at, "after_id": after.id}
+    return {"rows": limit + 1, **place}
+
+
+_AFTER: Final = tuple_(bindparam("after_at", type_=BigInteger), bindparam("after_id", type_=String))
+_ROWS: Final[Any] = bindparam("rows", type_=Integer)
 
 
 def cut(rows: Sequence[Row[Any]], limit: int) -> tuple[Sequence[Row[Any]], str | None]:
@@ -117,9 +138,14 @@ def search(text: str | None) -> str | None:
     return text
 
 
-def contains(column: Any, text: str) -> Any:
-    """Whether a text is part of a column's, capitals or not; its `%` and `_` are nothing special."""
-    return column.icontains(text, autoescape=True)
+def contains(column: Any) -> Any:
+    """Whether the text of `part_of` is part of a column's, capitals or not."""
+    return column.icontains(bindparam("part", type_=String), escape=ESCAPE)
+
+
+def part_of(text: str) -> dict[str, Any]:
+    """The parameter of `contains`; its `%` and `_` are nothing special."""
+    return {"part": re.sub(f"[{ESCAPE}%_]", lambda found: ESCAPE + found[0], text)}
 
 
 def _is_number(text: str, longest: int) -> bool:

@@ -7,10 +7,11 @@ machine: there the library sends it.
 
 import sqlite3
 from collections import namedtuple
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache
 from typing import Any, Final
 
-from sqlalchemy import Connection, Executable, Select
+from sqlalchemy import ColumnElement, Connection, Executable, Select, SelectBase, bindparam
 from sqlalchemy.engine import Dialect
 from sqlalchemy.types import TypeEngine
 
@@ -19,6 +20,9 @@ from server.store import sqlite
 Parameters = Mapping[str, Any]
 Values = Sequence[Any]
 Convert = Callable[[Any], Any]
+
+MOST_IDS: Final = 256
+"""In one statement."""
 
 
 class Prepared:
@@ -61,6 +65,42 @@ class Prepared:
         return self._sent
 
 
+class PreparedForIds:
+    """The same for rows that are found by their ids: for a power of two of them, the last repeated to make up for it.
+
+    Args:
+        statement: of the library; no list among its parameters. column: has the ids.
+    """
+
+    def __init__(self, statement: Select[Any], column: ColumnElement[Any]) -> None:
+        self._statement = statement
+        self._column = column
+        self._of_size: dict[int, Prepared] = {}
+
+    def all(self, connection: Connection, ids: Iterable[str]) -> list[Any]:
+        """All rows with these ids, `MOST_IDS` of them at a time."""
+        wanted, found = list(ids), []
+        for start in range(0, len(wanted), MOST_IDS):
+            part = wanted[start : start + MOST_IDS]
+            size = 1 << (len(part) - 1).bit_length()
+            names = _names(size)
+            values = dict(zip(names, part + part[-1:] * (size - len(part)), strict=True))
+            found += self._for(size).all(connection, **values)
+        return found
+
+    def _for(self, size: int) -> Prepared:
+        if size not in self._of_size:
+            ids: list[Any] = [bindparam(name) for name in _names(size)]
+            self._of_size[size] = Prepared(self._statement.where(self._column.in_(ids)))
+        return self._of_size[size]
+
+
+@cache
+def _names(size: int) -> tuple[str, ...]:
+    """The parameters' names."""
+    return tuple(f"id_{number}" for number in range(size))
+
+
 def is_direct(connection: Connection) -> bool:
     """Whether statements go to the driver itself."""
     return connection.dialect.name == "sqlite"
@@ -77,7 +117,7 @@ class _Sent:
         self._parameters: Final = tuple(
             (name, compiled.params.get(name), _bound(kind, dialect)) for name, kind in zip(names, types, strict=True)
         )
-        columns = statement.selected_columns if isinstance(statement, Select) else ()
+        columns = statement.selected_columns if isinstance(statement, SelectBase) else ()
         self._columns: Final = tuple(_read(column.type, dialect) for column in columns)
         self._are_as_they_come: Final = not any(self._columns)
         self._row = _row_of([str(column.key) for column in columns])

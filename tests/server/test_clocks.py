@@ -171,7 +171,7 @@ def test_clocks_of_many_games_are_flagged_at_once(new_table):
 
 @pytest.mark.parametrize("verb", ["shots", "decisions", "concede"])
 def test_nothing_counts_after_the_time_is_out(own_server, table_at, break_shot, verb):
-    table = table_at(own_server(POOLIAD_TIMER_PERIOD="3"), clock={"seconds": 0.2})
+    table = table_at(own_server(POOLIAD_TIMER_PERIOD="600"), clock={"seconds": 0.2})
     mover, view = table.mover()
     time.sleep(0.3)
     response = mover.post(f"/v1/games/{view['game']}/{verb}", break_shot, version=view["version"])

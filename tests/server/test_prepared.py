@@ -9,7 +9,7 @@ from sqlalchemy.exc import IntegrityError
 from server.errors import Unavailable
 from server.store import prepared
 from server.store.database import Database
-from server.store.prepared import Prepared
+from server.store.prepared import MOST_IDS, Prepared, PreparedForIds
 from server.store.tables import agents, answers
 from server.store.upgrade import upgrade
 
@@ -52,6 +52,21 @@ def test_what_is_written_is_read_again_by_either_way(database, table, row, is_di
             assert [each._asdict() for each in statement.all(connection, at=row["created_at"])] == [row]
             assert statement.first(connection, at=0) is None
             assert statement.all(connection, at=0) == []
+
+
+@pytest.mark.parametrize("is_direct", [True, False])
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 64, 65, MOST_IDS, MOST_IDS + 1, 3 * MOST_IDS - 1])
+def test_rows_are_found_by_however_many_ids_each_once(database, count, is_direct, monkeypatch):
+    """Made up to a power of two, and in more than one statement: none is missed, none comes twice or unasked."""
+    monkeypatch.setattr(prepared, "is_direct", lambda _: is_direct)
+    names = [f"agent_{number}" for number in range(count)]
+    with database.writing() as connection:
+        for name in [*names, "nobody's"]:
+            Prepared(insert(agents)).run(connection, AGENT | {"id": name, "name": name, "skeleton": name})
+    found = PreparedForIds(select(agents.c.id), agents.c.id)
+    with database.reading() as connection:
+        assert sorted(row.id for row in found.all(connection, {*names, "unknown"})) == sorted(names)
+        assert found.all(connection, []) == []
 
 
 def test_rows_that_are_changed_are_counted(database):

@@ -1,6 +1,8 @@
 """The timer's flag against a request that is being worked on: the clock stopped when its last byte came."""
 
+import asyncio
 import json
+import logging
 
 import pytest
 from support.server_time import SECOND, StoppedTime, next_message
@@ -70,6 +72,19 @@ def test_exactly_zero_is_out_of_time(context, turn):
     assert not ended(context, turn)
     context.time.value += 1
     assert ended(context, turn)
+
+
+def test_a_game_that_ends_while_the_server_stops_is_ended_in_silence(context, turn, caplog):
+    """The loop is closed before the timer's last look is over: whoever waited has been sent home. Each was an error."""
+
+    async def starts():
+        context.wakeups.start()
+
+    asyncio.run(starts())
+    context.time.value += 10 * SECOND
+    with caplog.at_level(logging.ERROR):
+        assert ended(context, turn)
+    assert not caplog.records
 
 
 def test_a_request_that_came_in_time_holds_the_flag_until_it_is_done(context, turn):

@@ -89,10 +89,13 @@ def listing(
     query = select(agents)
     if house is not None:
         query = query.where(agents.c.house.is_(house))
+    sought = {}
     if search is not None:
-        query = query.where(paging.contains(agents.c.name, search) | (agents.c.id == search))
+        query = query.where(paging.contains(agents.c.name) | (agents.c.id == search))
+        sought = paging.part_of(search)
+    query = paging.oldest_first(query, agents, is_first=after is None)
     with context.database.reading() as connection:
-        rows = connection.execute(paging.oldest_first(query, agents, after, limit)).all()
+        rows = connection.execute(query, paging.values(after, limit) | sought).all()
     page, more = paging.cut(rows, limit)
     return AgentList(agents=tuple(_view(row) for row in page), next_cursor=more)
 

@@ -56,7 +56,8 @@ def listing(context: Context, caller: Caller, after: paging.PagePosition | None,
     caller.require_admin()
     staff = select(tokens).where(tokens.c.agent_id.is_(None))
     with context.database.reading() as connection:
-        rows = connection.execute(paging.oldest_first(staff, tokens, after, limit)).all()
+        query = paging.oldest_first(staff, tokens, is_first=after is None)
+        rows = connection.execute(query, paging.values(after, limit)).all()
     page, more = paging.cut(rows, limit)
     return TokenList(tokens=tuple(_view(row) for row in page), next_cursor=more)
 

@@ -1,10 +1,11 @@
 """Matches in pages, the newest first: every page is read from indices in its order, however many matches there are."""
 
 from collections.abc import Sequence
-from typing import Any, Final, get_args
+from functools import cache
+from typing import Any, Final, NamedTuple, get_args
 
 from pydantic_core import to_json
-from sqlalchemy import ColumnElement, Connection, Select, or_, select
+from sqlalchemy import ColumnElement, Connection, Select, String, bindparam, or_, select
 
 from protocol import MatchStatus
 from server.errors import invalid_field
@@ -12,6 +13,7 @@ from server.services.matches import match_views
 from server.services.matches.secrecy import MATCH_OPEN
 from server.services.runtime.context import Context
 from server.store import paging
+from server.store.prepared import Prepared
 from server.store.tables import agents, matches
 
 STATUSES: Final[tuple[str, ...]] = get_args(MatchStatus)
@@ -36,11 +38,14 @@ def listing(
     """
     if status is not None and status not in STATUSES:
         raise invalid_field("status", status, f"one of {', '.join(STATUSES)}")
+    asked = {"agent": agent_id, "status": status, "search": search}
+    if search is not None:
+        asked |= paging.part_of(search)
     with context.database.reading() as connection:
-        queries = _queries(connection, agent_id, search)
-        if status is not None:
-            queries = [query.where(matches.c.status == status) for query in queries]
-        found = connection.execute(paging.newest_of(queries, matches, after, limit)).all()
+        named = [] if search is None or agent_id is not None else _NAMED.all(connection, **asked)
+        shape = _Shape(agent_id is not None, status is not None, search is not None, len(named), after is None)
+        asked |= {_named(number): row.id for number, row in enumerate(named)} | paging.values(after, limit)
+        found = _page(shape).all(connection, **asked)
         page, more = paging.cut(found, limit)
         shown = _shown(context, connection, [place.id for place in page])
     return b'{"matches":[%b],"next_cursor":%b}' % (b",".join(shown), to_json(more))
@@ -59,32 +64,60 @@ def _shown(context: Context, connection: Connection, ids: Sequence[str]) -> list
     return [known[each] for each in ids]
 
 
-def _queries(connection: Connection, agent_id: str | None, search: str | None) -> list[Select[Any]]:
+class _Shape(NamedTuple):
+    """What a page is asked for by.
+
+    Attributes:
+        named: agents with something in their names, at most one more than `MOST_NAMED`.
+    """
+
+    by_agent: bool
+    by_status: bool
+    by_name: bool
+    named: int
+    is_first: bool
+
+
+@cache
+def _page(shape: _Shape) -> Prepared:
+    """The statement of a page."""
+    queries = _queries(shape)
+    if shape.by_status:
+        queries = [query.where(matches.c.status == bindparam("status")) for query in queries]
+    return Prepared(paging.newest_of(queries, matches, is_first=shape.is_first))
+
+
+def _queries(shape: _Shape) -> list[Select[Any]]:
     """What the places of the matches asked for are made up of, no match in two of them."""
     every = select(matches.c.created_at, matches.c.id)
-    if agent_id is not None:
-        found = () if search is None else (_has_name(search),)
-        return [every.where(seat == agent_id, *found) for seat in (matches.c.seat_0, matches.c.seat_1)]
-    if search is None:
+    if shape.by_agent:
+        found = (_has_name(),) if shape.by_name else ()
+        return [every.where(seat == bindparam("agent"), *found) for seat in (matches.c.seat_0, matches.c.seat_1)]
+    if not shape.by_name:
         return [every]
-    named = connection.scalars(_named(search).limit(MOST_NAMED + 1)).all()
-    if len(named) > MOST_NAMED:
-        return [every.where(_has_name(search))]
-    first = [every.where(matches.c.seat_0 == one, matches.c.id != search) for one in named]
-    second = [every.where(matches.c.seat_1 == one, matches.c.seat_0.not_in(named)) for one in named]
-    return [every.where(matches.c.id == search), *first, *(one.where(matches.c.id != search) for one in second)]
+    if shape.named > MOST_NAMED:
+        return [every.where(_has_name())]
+    named: list[Any] = [bindparam(_named(number)) for number in range(shape.named)]
+    other = matches.c.id != _SEARCH
+    first = [every.where(matches.c.seat_0 == one, other) for one in named]
+    second = [every.where(matches.c.seat_1 == one, matches.c.seat_0.not_in(named), other) for one in named]
+    return [every.where(matches.c.id == _SEARCH), *first, *second]
 
 
-def _named(search: str) -> Select[str]:
-    """The agents with this in their names."""
-    return select(agents.c.id).where(paging.contains(agents.c.name, search))
+def _named(number: int) -> str:
+    """The parameter that an agent with something in its name is."""
+    return f"named_{number}"
 
 
-def _has_name(search: str) -> ColumnElement[bool]:
+def _has_name() -> ColumnElement[bool]:
     """A match has this id, or a player with this in the name.
 
     Not for the planner to start from: concatenated, the columns have no index, and the list is read in its order.
     """
     seats = (matches.c.seat_0, matches.c.seat_1)
-    named = _named(search)
-    return or_(*(seat.concat("").in_(named) for seat in seats), matches.c.id.concat("") == search)
+    return or_(*(seat.concat("").in_(_WITH_NAME) for seat in seats), matches.c.id.concat("") == _SEARCH)
+
+
+_SEARCH: Final = bindparam("search", type_=String)
+_WITH_NAME: Final = select(agents.c.id).where(paging.contains(agents.c.name))
+_NAMED: Final = Prepared(_WITH_NAME.limit(MOST_NAMED + 1))

@@ -6,7 +6,7 @@ from functools import lru_cache
 from itertools import groupby
 from typing import Any, Final
 
-from sqlalchemy import Connection, Row, Select, Text, cast, select
+from sqlalchemy import Connection, Row, Text, cast, select
 
 from physics import Table
 from protocol import ClockTerms, GameSummary, MatchView, OutcomeView, Position, RackView
@@ -17,20 +17,26 @@ from server.services.matches.secrecy import Holder, all_withheld
 from server.services.play.agent_messages import winner_of
 from server.services.play.live_game import FINISHED, RUNNING, noise_view, points
 from server.services.runtime.time import date_time
+from server.store.prepared import PreparedForIds
 from server.store.rows import GameRow
 from server.store.tables import agents, games, matches
 
-_SUMMED: Final[Select[Any]] = select(
-    *(games.c.id, games.c.match_id, games.c.number, games.c.status, games.c.winner, games.c.breaker),
-    *(games.c.commitment, games.c.noise_seed, games.c.started_at, games.c.ended_at),
-    games.c.state["stroke"].as_integer().label("strokes"),
-    games.c.state["outcome"].label("outcome"),
-).order_by(games.c.match_id, games.c.number)
+_SUMMED: Final = PreparedForIds(
+    select(
+        *(games.c.id, games.c.match_id, games.c.number, games.c.status, games.c.winner, games.c.breaker),
+        *(games.c.commitment, games.c.noise_seed, games.c.started_at, games.c.ended_at),
+        games.c.state["stroke"].as_integer().label("strokes"),
+        games.c.state["outcome"].label("outcome"),
+    ).order_by(games.c.match_id, games.c.number),
+    games.c.match_id,
+)
 """What a summary needs of a game's row: the balls, and the much longer lines of its record, are not read for a list."""
-_LISTED: Final[Select[Any]] = select(
-    *(column for column in matches.c if column.name != "table"), cast(matches.c.table, Text).label("table")
+_LISTED: Final = PreparedForIds(
+    select(*(column for column in matches.c if column.name != "table"), cast(matches.c.table, Text).label("table")),
+    matches.c.id,
 )
 """A match whose table is still the text that it is stored as: it was read before, with all its parameters."""
+_NAMES: Final = PreparedForIds(select(agents.c.id, agents.c.name), agents.c.id)
 TABLES: Final = 64
 """Tables that are remembered with all their parameters: most matches are played on a few."""
 
@@ -42,13 +48,13 @@ def view(connection: Connection, match: Row[Any]) -> MatchView:
 
 def rows(connection: Connection, ids: Sequence[str]) -> Sequence[Row[Any]]:
     """The matches with these ids, in their order, for `views`."""
-    found = {row.id: row for row in connection.execute(_LISTED.where(matches.c.id.in_(ids)))}
+    found = {row.id: row for row in _LISTED.all(connection, ids)}
     return [found[each] for each in ids]
 
 
 def views(connection: Connection, shown: Sequence[Row[Any]]) -> tuple[MatchView, ...]:
     """Matches with their games, read together. The rows were validated when they were written."""
-    found = connection.execute(_SUMMED.where(games.c.match_id.in_([match.id for match in shown]))).all()
+    found = _SUMMED.all(connection, [match.id for match in shown])
     played = {match_id: tuple(ours) for match_id, ours in groupby(found, lambda row: str(row.match_id))}
     names = _names(connection, shown)
     until = all_withheld(connection, shown)
@@ -110,8 +116,7 @@ def _summary(
 def _names(connection: Connection, shown: Sequence[Row[Any]]) -> dict[str, str]:
     """The names of the matches' agents, by id."""
     wanted = {seat for match in shown for seat in (match.seat_0, match.seat_1)}
-    found = connection.execute(select(agents.c.id, agents.c.name).where(agents.c.id.in_(sorted(wanted))))
-    return {row.id: row.name for row in found}
+    return {row.id: row.name for row in _NAMES.all(connection, sorted(wanted))}
 
 
 @lru_cache(TABLES)

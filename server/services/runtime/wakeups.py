@@ -32,13 +32,21 @@ class Wakeups:
         self._loop = asyncio.get_running_loop()
 
     def notify(self, agents: Iterable[str]) -> None:
-        """Wake everybody who waits for one of these agents; one call of the loop does for many that come together."""
+        """Wake everybody who waits for one of these agents; nobody does once the loop has ended.
+
+        One call of the loop does for all that come before it is carried out.
+        """
         if self._loop is None:
             return
         with self._lock:
             is_called, self._told = bool(self._told), self._told.union(agents)
-        if not is_called:
+        if is_called:
+            return
+        try:
             self._loop.call_soon_threadsafe(self._tell)
+        except RuntimeError:
+            if not self._loop.is_closed():
+                raise
 
     def drain(self) -> None:
         """Send every waiting caller home: the server is stopping. Called on the loop."""

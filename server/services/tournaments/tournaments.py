@@ -8,9 +8,10 @@ holds the match already, and nothing that holds an event's name then waits for a
 import secrets
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from typing import Any, Final
 
-from sqlalchemy import Connection, Row, insert, select
+from sqlalchemy import Connection, Row, bindparam, insert, select
 
 from physics import Table
 from protocol import (
@@ -22,6 +23,7 @@ from protocol import (
     TournamentView,
     VoidRequest,
 )
+from protocol.values import trusted
 from server.errors import WrongStatus, invalid_field
 from server.http.commands import Answer, Command, once, parse
 from server.security.callers import Caller
@@ -29,6 +31,7 @@ from server.services.matches.matches import call_off
 from server.services.runtime.context import Context, Writing
 from server.services.tournaments import progress, tournament_views
 from server.store import paging
+from server.store.prepared import Prepared
 from server.store.tables import agents, tournaments
 from tournament import Spec
 from tournament.ledger import Act
@@ -101,19 +104,28 @@ def entries(context: Context, tournament_id: str, caller: Caller, after: int, li
 
 def listing(
     context: Context, status: str | None, search: str | None, after: paging.PagePosition | None, limit: int
-) -> TournamentList:
-    """Events, the newest first, of one status or with a name when asked for; raises `Invalid`."""
-    query = select(tournaments)
-    if status is not None:
-        if status not in progress.STATUSES:
-            raise invalid_field("status", status, f"one of {', '.join(progress.STATUSES)}")
-        query = query.where(tournaments.c.status == status)
-    if search is not None:
-        query = query.where(paging.contains(tournaments.c.name, search) | (tournaments.c.id == search))
+) -> bytes:
+    """A `TournamentList` in JSON: the newest first, of one status or with a name when asked for; raises `Invalid`."""
+    if status is not None and status not in progress.STATUSES:
+        raise invalid_field("status", status, f"one of {', '.join(progress.STATUSES)}")
+    page = _page(status is not None, search is not None, after is None)
+    asked = {"status": status, "search": search, **(paging.part_of(search) if search is not None else {})}
     with context.database.reading() as connection:
-        rows = connection.execute(paging.newest_first(query, tournaments, after, limit)).all()
-    page, more = paging.cut(rows, limit)
-    return TournamentList(tournaments=tuple(tournament_views.summary(row) for row in page), next_cursor=more)
+        rows = page.all(connection, **paging.values(after, limit), **asked)
+    shown, more = paging.cut(rows, limit)
+    summaries = tuple(tournament_views.summary(row) for row in shown)
+    return trusted(TournamentList, tournaments=summaries, next_cursor=more).model_dump_json().encode()
+
+
+@cache
+def _page(of_status: bool, sought: bool, is_first: bool) -> Prepared:
+    """The statement of a page: events of one status, with something in the name."""
+    query = select(*tournament_views.SUMMED)
+    if of_status:
+        query = query.where(tournaments.c.status == bindparam("status"))
+    if sought:
+        query = query.where(paging.contains(tournaments.c.name) | (tournaments.c.id == bindparam("search")))
+    return Prepared(paging.newest_first(query, tournaments, is_first=is_first))
 
 
 def _created(writing: Writing, command: Command) -> Answer:

@@ -1,18 +1,19 @@
 """What spectators are told about a game, read from the database: its strokes, clocks, players and result."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final, NamedTuple
 
 from fastapi.sse import format_sse_event
-from sqlalchemy import ColumnElement, Connection, Row, Select, select
+from sqlalchemy import ColumnElement, Connection, Row, Select, bindparam, select
 
 from protocol import GameAnswer, StreamClocks, StreamConnections, StreamResult, of_many
 from server.services.matches.match_views import summary
 from server.services.play import stored_strokes
 from server.services.play.live_game import LiveGame, find, score_of
 from server.services.runtime.context import Context
+from server.store.prepared import Prepared, PreparedForIds
 from server.store.rows import GameRow
 from server.store.tables import games, heartbeats, matches, moves
 
@@ -79,14 +80,14 @@ def opening(context: Context, game_id: str, after: int | None) -> tuple[list[Spe
     """
     with context.database.reading() as connection:
         live = find(connection, game_id)
-        told = [] if after is None else list(_strokes(connection, game_id, moves.c.sequence > after))
+        rows = [] if after is None else _AFTER.all(connection, game=game_id, sequence=after)
         standing = _standing(context, connection, live)
         first = GameAnswer(
             **summary(live.row, live.fixture.withheld), view=live.view(connection, None, context.time.now())
         )
         news = [
             SpectatorEvent(game_id, "game", first.model_dump_json()),
-            *told,
+            *_strokes(rows, game_id),
             *_rest(context, connection, live, standing),
         ]
     return news, standing
@@ -97,7 +98,7 @@ def since(
 ) -> tuple[list[SpectatorEvent], dict[str, SpectatorState]]:
     """The news about several games since they stood as known, and how those stand now that have any.
 
-    One query when nothing has happened, however many games there are; two more for each game with news.
+    One query for many games when nothing has happened; two more for each game with news.
     """
     news: list[SpectatorEvent] = []
     standings: dict[str, SpectatorState] = {}
@@ -105,7 +106,7 @@ def since(
         here = agents_here(context, connection)
         for game_id in _moved(connection, known, here):
             live, before = context.seen.find(connection, game_id), known[game_id]
-            strokes = list(_strokes(connection, game_id, moves.c.number >= before.strokes))
+            strokes = list(_strokes(_FROM.all(connection, game=game_id, first=before.strokes), game_id))
             after = standings[game_id] = before.followed_by(strokes, _marks(here, live.row, live.agents))
             news += [*strokes, *_rest(context, connection, live, after, before)]
     return news, standings
@@ -113,12 +114,17 @@ def since(
 
 def _moved(connection: Connection, known: Mapping[str, SpectatorState], here: frozenset[str]) -> list[str]:
     """The games that stand otherwise than known."""
-    columns: Select[Any] = select(
+    rows = _STANDINGS.all(connection, known)
+    return [row.id for row in rows if _marks(here, row, (row.seat_0, row.seat_1)) != known[row.id].marks]
+
+
+_STANDINGS: Final = PreparedForIds(
+    select(
         *(games.c.id, games.c.version, games.c.mover, games.c.delivered, games.c.clock_from),
         *(matches.c.seat_0, matches.c.seat_1),
-    ).join(matches, games.c.match_id == matches.c.id)
-    rows = connection.execute(columns.where(games.c.id.in_(known))).all()
-    return [row.id for row in rows if _marks(here, row, (row.seat_0, row.seat_1)) != known[row.id].marks]
+    ).join(matches, games.c.match_id == matches.c.id),
+    games.c.id,
+)
 
 
 def _rest(
@@ -147,13 +153,20 @@ def _result(connection: Connection, live: LiveGame) -> StreamResult:
     return StreamResult(**kept, score=score_of(connection, live.match.id), record=f"/v1/games/{live.id}/record")
 
 
-def _strokes(connection: Connection, game_id: str, which: ColumnElement[bool]) -> Iterator[SpectatorEvent]:
-    columns: Select[Any] = select(moves.c.sequence, *stored_strokes.LINE)
-    ours = columns.where(moves.c.game_id == game_id, which).order_by(moves.c.number)
-    for row in connection.execute(ours):
+def _strokes(rows: Iterable[Row[Any]], game_id: str) -> Iterator[SpectatorEvent]:
+    for row in rows:
         line = stored_strokes.line(row)
         kind = "decision" if stored_strokes.is_decision(line) else "stroke"
         yield SpectatorEvent(game_id, kind, line, row.sequence)
+
+
+def _lines(which: ColumnElement[bool]) -> Prepared:
+    columns: Select[Any] = select(moves.c.sequence, *stored_strokes.LINE)
+    return Prepared(columns.where(moves.c.game_id == bindparam("game"), which).order_by(moves.c.number))
+
+
+_AFTER: Final = _lines(moves.c.sequence > bindparam("sequence"))
+_FROM: Final = _lines(moves.c.number >= bindparam("first"))
 
 
 def _standing(context: Context, connection: Connection, live: LiveGame) -> SpectatorState:

@@ -50,7 +50,8 @@ class News:
         self._events = tuple(events)
         self.game = self._events[0].game
         self.is_result = any(each.kind == RESULT for each in self._events)
-        self._sequences = [each.sequence for each in self._events if each.sequence is not None]
+        sequences = [each.sequence for each in self._events if each.sequence is not None]
+        self._first, self._last = min(sequences, default=None), max(sequences, default=0)
 
     @cached_property
     def _alone(self) -> bytes:
@@ -62,11 +63,11 @@ class News:
 
     def encoded(self, after: int, *, several: bool) -> tuple[bytes, int]:
         """The events without strokes up to a sequence, and the sequence of the last stroke told then."""
-        if self._sequences and self._sequences[0] <= after:
+        last = max(after, self._last)
+        if self._first is not None and self._first <= after:
             new = [each for each in self._events if each.sequence is None or each.sequence > after]
-            parts = [each.among_others if several else each.alone for each in new]
-            return b"".join(parts), max(after, self._sequences[-1])
-        return self._among_others if several else self._alone, max([after, *self._sequences[-1:]])
+            return b"".join([each.among_others if several else each.alone for each in new]), last
+        return self._among_others if several else self._alone, last
 
 
 class Spectator:
@@ -207,7 +208,8 @@ class Spectators:
     async def _run(self) -> None:
         while not self._context.wakeups.draining.is_set():
             with contextlib.suppress(TimeoutError):
-                await asyncio.wait_for(self._hint.wait(), self._context.settings.stream_recheck)
+                async with asyncio.timeout(self._context.settings.stream_recheck):
+                    await self._hint.wait()
             self._hint.clear()
             try:
                 await self._look()
